@@ -7,7 +7,7 @@ import msgspec
 
 from planner.record.places import LightChange
 from planner.record.trace import (
-    MAX_BYTES,
+    ROOM,
     SAMPLE_PERIOD,
     GoalPrediction,
     PlanTrace,
@@ -27,12 +27,12 @@ _Place: TypeAlias = tuple[int, int, int]  # vehicle, index of a goal, index of a
 def fitted(trace: PlanTrace) -> PlanTrace:
     """Return the trace without the lines that it has no room for.
 
-    Where it is larger than MAX_BYTES, the histories of those who are not predicted shrink to
+    Where it is larger than ROOM, the histories of those who are not predicted shrink to
     RECENT samples; then the less probable predictions lose path, speed and who
     holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
-    what rollouts came to, and why, always stays.
+    what rollouts came to, and why, always stays, even if that alone is larger than ROOM.
     """
-    excess = len(encode(trace)) - MAX_BYTES
+    excess = len(encode(trace)) - ROOM
     if excess <= 0:
         return trace
     shorter = _without_past(trace)

@@ -20,7 +20,10 @@ from sim.scene import Point, VehicleState
 SCHEMA = "xavi.plan_trace/2"
 READABLE = ("xavi.plan_trace/1", SCHEMA)  # the older ones lack what was added since
 LARGEST = 1e6  # maximum of a component, in its unit; no real drive exceeds it
-MAX_BYTES = 256 * 1024
+MAX_BYTES = 1024 * 1024  # that readers accept
+#: Bytes beyond which a trace goes without lines (planner.record.fitting); what it cannot go
+#: without may take more than this in a crowd, where a rollout has a sample of each road user.
+ROOM = 256 * 1024
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
 
 Action = Literal[
@@ -184,7 +187,7 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
 
     Many rollouts drive the very same line at the same speeds. It is recorded once: the later
     ones carry `same_as`, the index of the first, and null path and speed. Where a trace would
-    grow beyond MAX_BYTES, further rollouts go without their line (planner.record.fitting).
+    grow beyond ROOM, further rollouts go without their line (planner.record.fitting).
     """
 
     index: int

@@ -1,4 +1,5 @@
 import json
+from pathlib import Path
 
 import msgspec
 import pytest
@@ -29,8 +30,10 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.bus.schema import schema_of
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.storage.ride_file import load
 
 TRACE = s1_ride(draws=10).traces[0]
+RIDES = sorted((Path(__file__).parents[2] / "transcripts" / "rides").glob("*.gz"))
 HEAD = {"ride": "r1", "seq": 3, "sim_time": 2.0, "wall_time": 1.0e9}
 EXAMPLES = (
     SceneReport(
@@ -62,6 +65,15 @@ def test_a_message_comes_through_as_it_was(message: AskRequest) -> None:
 def test_a_trace_keeps_its_name_on_the_way() -> None:
     report = unpack(pack(EXAMPLES[1]), TraceReport)
     assert report.trace.trace_id == TRACE.trace_id
+
+
+@pytest.mark.parametrize("file", RIDES, ids=lambda file: file.name.partition(".")[0])
+def test_every_decision_of_a_recorded_ride_is_small_enough_to_be_read(file: Path) -> None:
+    ride = load(file.read_bytes())
+    assert ride.traces
+    for seq, trace in enumerate(ride.traces):
+        report = TraceReport(**HEAD | {"seq": seq}, trace=trace)
+        assert unpack(pack(report), TraceReport).trace.trace_id == trace.trace_id
 
 
 def test_a_reply_can_be_told_from_what_surrounds_it() -> None:

@@ -1,5 +1,6 @@
 """Reports on the bus about the moments of a ride."""
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from typing import Protocol
@@ -14,6 +15,8 @@ from xavi_dialogue.vehicle.episode import Moment, clock
 KEPT_TRACES = 300  # for late joiners
 KEPT_EVENTS = 1000
 LATELY = 5.0  # [s] over which the speed of the simulation is measured
+
+_LOG = logging.getLogger(__name__)
 
 
 class ReportSink(Protocol):
@@ -140,6 +143,9 @@ class Reporter:
             trace=trace,
             first=self._first,
         )
-        self._trace.put(pack(report))
+        payload = pack(report)
+        if len(payload) > TraceReport.LIMIT:
+            _LOG.warning("a decision is too large to be read", extra={"bytes": len(payload)})
+        self._trace.put(payload)
         self._traces += 1
         self._alive.count("decisions")

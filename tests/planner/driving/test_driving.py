@@ -12,7 +12,7 @@ import pytest
 from planner.counterfactuals.whatif import WhatIf, replan
 from planner.driving.driver import Driver
 from planner.record.events import Event
-from planner.record.trace import MAX_BYTES, Action, EgoGoal, PlanTrace, Settings, encode
+from planner.record.trace import ROOM, Action, EgoGoal, PlanTrace, Settings, encode
 from planner.roads.trajectory import Roads
 from planner.search.decide import decide
 from planner.search.inputs import Frame, Moment, Root, root_at
@@ -98,7 +98,7 @@ def test_the_goal_is_reached_without_a_collision(name: str, seed: int) -> None:
     assert done.finished
     assert done.events[-1].kind == "arrived"
     assert "stop" not in done.started
-    assert max(len(encode(trace)) for trace in done.traces) <= MAX_BYTES
+    assert max(len(encode(trace)) for trace in done.traces) <= ROOM
     speeds = [scene.ego.speed for scene in done.scenes]
     step = load(name).step
     changes = [(b - a) / step for a, b in itertools.pairwise(speeds)]

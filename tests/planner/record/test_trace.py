@@ -10,11 +10,12 @@ import msgspec
 import pytest
 
 from planner.errors import TraceError
+from planner.prediction.people import MOST
 from planner.record.fitting import IMPROBABLE, RECENT, fitted
 from planner.record.places import LightChange
-from planner.record.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, Track, encode
+from planner.record.trace import MAX_BYTES, ROOM, SCHEMA, PlanTrace, Rollout, Sample, Track, encode
 from planner.record.trace_reading import decode
-from planner.search.decide import decide
+from planner.search.decide import CROWD, decide
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 
 
@@ -144,9 +145,9 @@ def bare(trace: PlanTrace) -> list[Rollout]:
 
 def test_what_does_not_fit_loses_the_lines_recorded_last(trace: PlanTrace) -> None:
     large = crowded(trace, 150)
-    assert len(encode(large)) > MAX_BYTES
+    assert len(encode(large)) > ROOM
     small = fitted(large)
-    assert MAX_BYTES - 5_000 < len(encode(small)) <= MAX_BYTES
+    assert ROOM - 5_000 < len(encode(small)) <= ROOM
     assert bare(small) == bare(large)
     assert small.rollouts[0] == large.rollouts[0]
     assert small.rollouts[-1].path is None
@@ -165,9 +166,9 @@ def test_in_a_great_crowd_the_past_of_who_is_not_predicted_goes_first(trace: Pla
     scene = trace.scene | dict.fromkeys(far, trace.scene[1])
     crowd = msgspec.structs.replace(trace, scene=scene, history=trace.history | far)
     large = crowded(crowd, 100)
-    assert len(encode(large)) > MAX_BYTES
+    assert len(encode(large)) > ROOM
     small = fitted(large)
-    assert len(encode(small)) <= MAX_BYTES
+    assert len(encode(small)) <= ROOM
     assert small.history[0] == large.history[0]
     assert small.history[1] == large.history[1]
     assert small.history[30].start == pytest.approx(2.0 + 0.2 * (n - RECENT))
@@ -181,7 +182,7 @@ def test_in_a_great_crowd_predictions_lose_their_lines_too(trace: PlanTrace) -> 
     large = crowded(trace, 150)
     many = tuple(msgspec.structs.replace(trace.predictions[0], vehicle=k) for k in range(1, 120))
     small = fitted(msgspec.structs.replace(large, predictions=many))
-    assert len(encode(small)) <= MAX_BYTES
+    assert len(encode(small)) <= ROOM
     assert bare(small) == bare(large)
     for known, before in zip(small.predictions, many, strict=True):
         assert [goal.probability for goal in known.goals] == [
@@ -280,3 +281,27 @@ def test_a_trace_that_does_not_fit_together_is_refused(
     damaged = msgspec.json.encode({**known, **change(known)})
     with pytest.raises(TraceError, match=fault):
         decode(damaged)
+
+
+def test_in_the_greatest_crowd_what_rollouts_came_to_stays_and_is_read(trace: PlanTrace) -> None:
+    known = trace.predictions[0]
+    crowd = range(1, 2 * CROWD + MOST + 1)
+    samples = tuple(Sample(k, 0, 0) for k in crowd)
+    rollouts = tuple(
+        msgspec.structs.replace(rollout, samples=samples)
+        for rollout in crowded(trace, 200).rollouts
+    )
+    scene, history = (
+        {0: part[0]} | dict.fromkeys(crowd, part[1]) for part in (trace.scene, trace.history)
+    )
+    large = msgspec.structs.replace(
+        trace,
+        rollouts=rollouts,
+        scene=scene,
+        history=history,
+        predictions=tuple(msgspec.structs.replace(known, vehicle=k) for k in crowd),
+    )
+    small = fitted(large)
+    assert ROOM < len(encode(small)) <= MAX_BYTES
+    assert bare(small) == bare(large)
+    assert decode(encode(small)) == small

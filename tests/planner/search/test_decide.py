@@ -7,7 +7,7 @@ import pytest
 from planner.record.trace import (
     ACTIONS,
     COMPONENTS,
-    MAX_BYTES,
+    ROOM,
     SAMPLE_PERIOD,
     PlanTrace,
     Rollout,
@@ -259,7 +259,7 @@ def test_a_crowd_fits_into_a_trace(name: str) -> None:
     trace = decide(frame(name, Settings()), scene).trace
     assert len(trace.predictions) == 12
     data = encode(trace)
-    assert len(data) <= MAX_BYTES
+    assert len(data) <= ROOM
     assert decode(data) == trace
     first = trace.rollouts[0]
     assert first.path is not None  # only the last ones go without
