@@ -8,6 +8,25 @@ from xavi_dialogue.bus.interface import DEFAULT_ENDPOINT
 
 Mode: TypeAlias = Literal["peer", "router", "client"]
 
+_MAX_MESSAGE = 4 * 1024 * 1024  # bytes; all messages are smaller
+_SAFE: dict[str, object] = {
+    "scouting/multicast/enabled": False,
+    "scouting/gossip/enabled": False,
+    "transport/shared_memory/enabled": False,
+    "transport/link/rx/max_message_size": _MAX_MESSAGE,
+    "timestamping/enabled": True,
+    "transport/unicast/open_timeout": 3000,  # [ms] to detect a listener that is no hub
+}
+# [us] until the link to a reader that has stopped reading is closed. At a hub, it blocks all other
+# readers meanwhile; a client has one reader, the hub, and loses what was under way to it.
+_BLOCKED = "transport/link/tx/queue/congestion_control/block/wait_before_close"
+_PATIENCE: dict[Mode, int] = {"client": 10_000_000, "peer": 1_000_000, "router": 1_000_000}
+
+
+def defaults(mode: Mode) -> dict[str, object]:
+    """Return the settings of a Zenoh session without a configuration file."""
+    return {**_SAFE, "mode": mode, _BLOCKED: _PATIENCE[mode]}
+
 
 @dataclass(frozen=True, slots=True)
 class Link:

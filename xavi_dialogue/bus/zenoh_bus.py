@@ -34,24 +34,13 @@ from xavi_dialogue.bus.interface import (
     TooLate,
     Watcher,
 )
-from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.link import Link, defaults
 from xavi_dialogue.bus.timers import Timers
 
 JSON = "application/json"
 CERTIFICATE = "transport/link/tls/connect_certificate"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
 HEARTBEAT = 0.2  # [s] after which readers notice at the latest that the last message was lost
-MAX_MESSAGE = 4 * 1024 * 1024  # bytes; all messages are smaller
-SAFE: dict[str, object] = {  # settings if there is no configuration file
-    "scouting/multicast/enabled": False,
-    "scouting/gossip/enabled": False,
-    "transport/shared_memory/enabled": False,
-    "transport/link/rx/max_message_size": MAX_MESSAGE,
-    "timestamping/enabled": True,
-    "transport/unicast/open_timeout": 3000,  # [ms] to detect a listener that is no hub
-    # A reader that has stopped reading blocks all others of the same key until its link is closed.
-    "transport/link/tx/queue/congestion_control/block/wait_before_close": 1_000_000,  # [us]
-}
 GRACE = 0.5  # [s] of Zenoh's clean-up after a deadline
 _TIMERS = Timers()  # of all requests of this process
 
@@ -305,7 +294,7 @@ def _config(link: Link) -> zenoh.Config:
     Raises:
         BadLink: the file, an endpoint or the mode cannot be used.
     """
-    config, settings = zenoh.Config(), SAFE
+    config, settings = zenoh.Config(), defaults(link.mode or "client")
     if link.config is not None:
         try:
             config, settings = zenoh.Config.from_file(str(link.config)), {}

@@ -27,7 +27,7 @@ from xavi_dialogue.bus.access_control import (
     member,
 )
 from xavi_dialogue.bus.certificates import Authority, Identity
-from xavi_dialogue.bus.zenoh_bus import SAFE
+from xavi_dialogue.bus.link import Mode, defaults
 from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 HUB = "service"  # the role of the hub's process
@@ -176,9 +176,8 @@ def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Jso
     """Return the Zenoh configuration of a member: of the hub, or of one of its clients."""
     hub = one.role == HUB and not order.routers
     connect = [endpoint for _, endpoint in order.routers] or [order.connect]
-    settings, link = _session(one.common_name, folder)
+    settings, link = _session("peer" if hub else "client", one.common_name, folder)
     settings |= {
-        "mode": "peer" if hub else "client",
         "listen/endpoints": [order.listen] if hub else [],
         "connect/endpoints": [] if hub else connect,
     }
@@ -190,9 +189,8 @@ def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Jso
 def router_configuration(number: int, order: KeyOptions, folder: Path) -> dict[str, Json]:
     """Return the Zenoh configuration of a router, which links to those before it."""
     name, endpoint = order.routers[number]
-    settings, link = _session(f"{ROUTER}.{name}", folder)
+    settings, link = _session("router", f"{ROUTER}.{name}", folder)
     settings |= {
-        "mode": "router",
         "listen/endpoints": [endpoint],
         "connect/endpoints": [there for _, there in order.routers[:number]],
     }
@@ -201,8 +199,8 @@ def router_configuration(number: int, order: KeyOptions, folder: Path) -> dict[s
     return _nested(settings)
 
 
-def _session(name: str, folder: Path) -> tuple[dict[str, object], dict[str, object]]:
-    """Return the settings that all sessions share, and the part of them about TLS."""
+def _session(mode: Mode, name: str, folder: Path) -> tuple[dict[str, object], dict[str, object]]:
+    """Return the settings that all sessions of a mode share, and the part of them about TLS."""
     link: dict[str, object] = {
         "root_ca_certificate": str(folder / f"{AUTHORITY}.pem"),
         "connect_certificate": str(folder / f"{name}.pem"),
@@ -212,7 +210,7 @@ def _session(name: str, folder: Path) -> tuple[dict[str, object], dict[str, obje
         "close_link_on_expiration": True,
     }
     settings: dict[str, object] = {
-        **SAFE,
+        **defaults(mode),
         "transport/link/protocols": list(PROTOCOLS),
         "transport/link/tls": link,
     }
