@@ -268,9 +268,10 @@ class Elliptic(Value, frozen=True):
     event: Event | None = None
     time: Time = Unsaid()
     negated: bool = False  # "and if he hadn't?", "why not?"
-    form: Literal["same", "why", "why-not", "what-if", "which", "when", "where", "how", "sure"] = (
-        "same"
-    )
+    form: Literal[
+        "same", "why", "why-not", "what-if", "which", "when", "until", "where", "how", "how-much",
+        "sure",
+    ] = "same"  # fmt: skip
     besides: bool = False  # "what else", "anything else?"
 
 

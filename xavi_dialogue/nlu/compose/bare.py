@@ -46,6 +46,9 @@ _FORMS = {"why": "why", "which": "which", "when": "when", "where": "where", "how
           "what": "same", "who": "which"}  # fmt: skip
 _BARE = 0.3
 _YET = frozenset({"still", "yet"})
+_AMOUNT = frozenset(
+    ["and", "but", "so", "by", "how", "much", "more", "less", "exactly", "roughly", "about", "then"]
+)
 _ONWARD = frozenset({"now", "next", "then", "after-that"})
 
 
@@ -59,6 +62,8 @@ class BareQuestions(Suppositions):
         clause = self.phrases.slots.fill(tuple(parts))
         if wh.kind == "why":
             return self._bare_why(clause, parts)
+        if wh.key == "much" and _words(unit) <= _AMOUNT:
+            return [((Elliptic(form="how-much"),), 0.05)]
         if wh.kind in ("grade", "count", "evidence"):
             return self._bare_grade(wh, clause)
         thing, event = self._contents(clause)
@@ -70,6 +75,8 @@ class BareQuestions(Suppositions):
         free = wh.kind in ("what", "where") and thing in (None, NEXT) and event is None
         if free and _onward(unit, clause):
             return [((_next(unit),), 0.0)]
+        if wh.kind == "what" and _words(unit) & {"like", "such"} and clause.verb is None:
+            return [((Elliptic(form="which"),), 0.0)]  # "like what?", "such as what?"
         if wh.kind == "what":
             if clause.verb is None and thing is None and isinstance(clause.time, Unsaid):
                 return [((Repair("repeat"),), 0.1)]
@@ -87,6 +94,8 @@ class BareQuestions(Suppositions):
         if event is not None:
             found = self.composer.questions.of(wh, clause)
             return [((Ask(q),), cost + _BARE) for q, cost in found]
+        if form == "when" and _words(unit) & {"until", "till"}:
+            form = "until"
         past = 0.0 if clause.that is None else PASSED_OVER
         return [((Elliptic(thing, event, clause.time, clause.negated, form),), past)]
 
@@ -178,7 +187,11 @@ class BareQuestions(Suppositions):
                     return None, found
         sem: Sem | None = clause.objects[0][0] if clause.objects else None
         if sem is None and clause.complements:
-            sem = clause.complements[0].sem
+            place = clause.complements[0]
+            sem = place.sem
+            if place.key.startswith("bearing-") and (other := as_thing(sem)) is not None:
+                bearing: Any = place.key.removeprefix("bearing-")  # "and behind us?"
+                return Described(bearing=bearing, of=None if other == Ego() else other), None
         if isinstance(sem, Event):
             return None, sem
         for phrase in clause.complements if isinstance(sem, Described) else ():
@@ -191,15 +204,19 @@ def _still(wh: Wh, clause: Clause) -> bool:
     return clause.still or not _YET.isdisjoint((*clause.focus, *wh.words))
 
 
+def _words(unit: Node) -> set[str]:
+    return {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+
+
 def _onward(unit: Node, clause: Clause) -> bool:
     """Check whether a question is about what comes next: "what now?", "and then what?"."""
-    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    words = _words(unit)
     return clause.verb is None and bool(words & _ONWARD) and "how" not in words
 
 
 def _next(unit: Node) -> Act:
     """Return the question what comes next, or what came after the event in question."""
-    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    words = _words(unit)
     if "then" in words or "after" in words:
         return Elliptic(time=Back("after"))
     return Ask(Doing(Ego(), Next(), "future"))

@@ -61,6 +61,8 @@ _FORMS: dict[str, QueryType] = {
     "why-not": "why_not",
     "what-if": "what_if",
     "when": "when",
+    "until": "when",
+    "how-much": "what",
     "where": "where_goal",
     "how": "how",
     "sure": "confidence",

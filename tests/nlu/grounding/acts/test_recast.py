@@ -128,14 +128,6 @@ SUCH = Described(plural=True, definite=False)
         (HowMany(SUCH), ABOUT_LANES, HowMuch(Measured("lane-count"))),
         (HowMany(SUCH), ABOUT_SPEED, None),
         (HowMany(replace(SUCH, colour="red")), ABOUT_LANES, None),
-        # "And by how much?"
-        (
-            HowMuch(Measured("count")),
-            after(Whether(FASTER)),
-            HowMuch(Measured("speed", to=Vehicle(1))),
-        ),
-        (HowMuch(Measured("count")), after(Whether(SPEEDING)), HowMuch(Measured("excess"))),
-        (HowMuch(Measured("count")), ABOUT_WAY, None),
         # Which way, and how far.
         (Whether(Related("on", Ego(), Road(which="right"))), NOBODY, Whither()),
         (Whether(Related("on", Ego(), Road(which="right")), tag=True), NOBODY, None),
@@ -195,7 +187,6 @@ def test_what_leans_on_the_talk_is_noted() -> None:
         (HowMany(SUCH), ABOUT_LANES, True),
         (HowMany(SUCH), ABOUT_SPEED, False),
         (Identify(IT), ABOUT_SPEED, True),
-        (HowMuch(Measured("count")), after(Whether(FASTER)), True),
         (Whither(), ABOUT_SPEED, False),
     ):
         g = grounder(discourse=said)

@@ -9,6 +9,7 @@ from tests.nlu.grounding.completion.test_discussed import BRAKED, SLOWED, ground
 from tests.nlu.grounding.fakes import did, talk
 from xavi_dialogue.domain.meaning import (
     Ask,
+    Compare,
     Doing,
     Elliptic,
     HowDecide,
@@ -29,11 +30,15 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     At,
+    Compares,
     Described,
     Ego,
     Event,
+    Exists,
     Exit,
+    Feature,
     Happens,
+    Has,
     Junction,
     Measured,
     Not,
@@ -53,6 +58,11 @@ def completed(spoken: Elliptic, question: Question | None = None, **fields: Any)
 
 WHY = Why(Happens(SLOWED))
 BUS = Described(kind="bus")
+DELAY = HowMuch(Measured("delay"))
+GONE = Not(Exists(Vehicle(1)))
+LEFT = Event("change-left", tense="present", modal="would")
+FASTER = Compares(Measured("speed"), "more", Measured("speed", Vehicle(1)))
+SPEEDING = Compares(Measured("speed"), "more", Measured("limit"))
 
 
 @pytest.mark.parametrize(
@@ -79,6 +89,24 @@ BUS = Described(kind="bus")
         (Elliptic(form="when"), Why(Not(Happens(SLOWED))), When(Not(Happens(SLOWED)))),
         (Elliptic(form="how"), WHY, HowDecide(Happens(SLOWED))),
         (Elliptic(form="sure"), WHY, HowSure(Happens(SLOWED))),
+        # How much, and until when.
+        (Elliptic(form="how-much"), Whether(FASTER), HowMuch(Measured("speed", to=Vehicle(1)))),
+        (Elliptic(form="how-much"), Whether(SPEEDING), HowMuch(Measured("excess"))),
+        (Elliptic(form="how-much"), HowMuch(Measured("gap")), HowMuch(Measured("gap"))),
+        (Elliptic(form="how-much"), WhatIf(GONE, Whether(Happens(SLOWED))), WhatIf(GONE, DELAY)),
+        (Elliptic(form="how-much"), Compare((Happens(LEFT),), "time"),
+         WhatIf(Happens(replace(LEFT, modal=None)), DELAY)),
+        (Elliptic(form="how-much"), Compare((Vehicle(1), Vehicle(2)), "speed"),
+         HowMuch(Measured("speed", Vehicle(1), Vehicle(2)))),
+        (Elliptic(form="how-much"), WHY, Whether(Happens(SLOWED))),
+        (Elliptic(form="how-much"), Identify(Vehicle(1)), None),
+        (Elliptic(form="how-much"), None, None),
+        (Elliptic(form="until"), Why(Happens(Event("stand", tense="present"))),
+         When(Happens(Event("go", tense="future")))),
+        (Elliptic(form="until"), WHY, When(Happens(SLOWED), "end")),
+        (Elliptic(form="until"), Whether(Has("colour", "red", Feature("light"))),
+         When(Happens(Event("turn-colour", Feature("light"), tense="future")))),
+        (Elliptic(form="when"), HowMuch(Measured("lane")), None),
         # Why, and why not.
         (Elliptic(form="why"), Whether(Happens(SLOWED)), Why(Happens(SLOWED))),
         (Elliptic(form="why-not"), Whether(Not(Happens(SLOWED))), Why(Not(Happens(SLOWED)))),

@@ -103,11 +103,6 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case HowMany(of=Described() as of) if _of_lanes(of, g):
             g.notes.leaned = True
             return HowMuch(Measured("lane-count"))
-        case HowMuch(of=Measured(attribute="count", thing=Ego(), to=None)) if (
-            apart := _difference(g.context)
-        ) is not None:
-            g.notes.leaned = True
-            return apart
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
             action in _ARRIVING and tense in ("present", "future")
         ):
@@ -228,17 +223,6 @@ def _of_lanes(of: Described, g: Grounder) -> bool:
         and isinstance(asked, HowMuch)
         and asked.of.attribute in ("lane", "lane-count")
     )
-
-
-def _difference(context: Context) -> HowMuch | None:
-    """Give what "and by how much?" asks after a comparison of speeds."""
-    match proposition_of(context.discourse.question) or asserted(context):
-        case Compares(left=Measured(attribute="speed") as left, right=right):
-            if isinstance(right, Measured) and right.attribute == "limit":
-                return HowMuch(replace(left, attribute="excess"))
-            if isinstance(right, Measured):
-                return HowMuch(replace(left, to=right.thing))
-    return None
 
 
 def is_vague(thing: Thing | None) -> bool:

@@ -15,9 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Doing,
     Elliptic,
-    HowDecide,
     HowMuch,
-    HowSure,
     Identify,
     Listing,
     Peak,
@@ -25,14 +23,12 @@ from xavi_dialogue.domain.meaning import (
     Request,
     Summarise,
     WhatIf,
-    When,
     Where,
     Whether,
     Which,
-    Whither,
     Why,
 )
-from xavi_dialogue.domain.rewriting import first, parts
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
     Back,
@@ -52,7 +48,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.nlu.grounding.acts.dangers import STATES
+from xavi_dialogue.nlu.grounding.completion.asking import FOR_WHOM, asked
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -64,8 +60,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.showing import anew, showing
-from xavi_dialogue.nlu.grounding.completion.sides import lane_or_turn, on_a_side
-from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if, whom_struck
+from xavi_dialogue.nlu.grounding.completion.sides import at_place, lane_or_turn, on_a_side
+from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 FRAMELESS: Final = 0.6  # cost of a fragment that has nothing to complete
@@ -83,7 +79,7 @@ def complete(spoken: Elliptic, g: Grounder) -> Act | None:
             return what_if(spoken, question, g)
         case "same":
             return showing(spoken, question, g) or _same(spoken, question, g)
-    return _asked(spoken, question, g)
+    return asked(spoken, question, g)
 
 
 def under_discussion(g: Grounder) -> Question | None:
@@ -186,7 +182,7 @@ def _somebody_else(question: Question | None) -> Question:
         case Why(of=of) if first(of, Vehicle) is None:
             return replace(question, suspect=SOMEBODY_ELSE, rival=None, alone=False)
         case Whether(that=Happens(event=Event(actor=Ego(), object=Vehicle()) as event)) if (
-            event.action in _FOR_WHOM
+            event.action in FOR_WHOM
         ):
             return Why(Happens(replace(event, object=None)), suspect=SOMEBODY_ELSE)
         case Which(such=Happens()):
@@ -203,6 +199,8 @@ def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
         return Listing(
             "vehicles", thing
         )  # "is there room on the left?", "what about oncoming cars?"
+    if (there := at_place(thing, question)) is not None:
+        return there
     event = main_event(question)
     whom = isinstance(question, Which) and event is not None and isinstance(event.object, Wanted)
     if isinstance(thing, Ego) and whom and event is not None:
@@ -278,71 +276,3 @@ def _frameless(spoken: Elliptic, g: Grounder) -> Act | None:
     if isinstance(spoken.thing, Described | Pronoun | Vehicle):
         return Ask(Identify(spoken.thing))
     return Ask(Where(spoken.thing))
-
-
-#: What is done for, to or because of somebody: "for whom?".
-_FOR_WHOM: Final = frozenset(
-    ("wait", "give-way", "let-go", "brake", "stop", "slow-down", "follow", "stand", "swerve",
-     "signal", "honk", "flash")
-)  # fmt: skip
-
-
-def _of_our_way(question: Question | None) -> bool:
-    """Tell whether it was asked which way we go, or what we do next."""
-    if isinstance(question, HowMuch):
-        return question.of.attribute in ("turn", "exit-number") and question.extreme is None
-    deed = main_event(question)
-    ours = deed is not None and deed.actor == Ego() and deed.tense in ("present", "future")
-    return ours and first(question, Vehicle) is None
-
-
-def _danger(question: Question | None, g: Grounder) -> Act | None:
-    """Ask whom we may strike, after a question for the risk: of the option it was about, if any."""
-    option, state = g.context.discourse.option, first(question, Is)
-    about = option is not None and option.action not in _FOR_WHOM
-    about = about or (state is not None and state.state in STATES)
-    hits = (e.action == "collide" and e.tense != "past" for e in parts(question, Event))
-    if not about and not any(hits):
-        return None
-    return Ask(whom_struck(None if option is None else Happens(option)))
-
-
-def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
-    """Put another question word to what was spoken of: "when?", "which one?", "how sure?"."""
-    thing = spoken.thing
-    if spoken.form == "which":
-        if thing is None and isinstance(question, Which):
-            return Ask(question)
-        event = main_event(question)
-        open_ = thing is None or (isinstance(thing, Described) and not thing.colour)
-        if open_ and (danger := _danger(question, g)) is not None:
-            return danger
-        named = thing is not None or isinstance(question, Why)
-        if not named and event is not None and event.action in _FOR_WHOM:
-            return Ask(Which(Wanted(), Happens(replace(event, object=Wanted()))))
-        return Ask(Identify(thing or Pronoun("it")))
-    if spoken.form == "where" and thing is None and _of_our_way(question):
-        return Ask(Whither())  # "and then where?"
-    if spoken.form == "where" and (thing is not None or main_event(question) is None):
-        told = isinstance(question, HowMuch) and question.extreme is not None
-        if thing is None and question is not None and (told or isinstance(question, Whither)):
-            return Ask(question)  # its answer tells where
-        return Ask(Where(thing or first(question, Vehicle) or Pronoun("it"), spoken.time))
-    of = questioned(g.context) if spoken.form != "sure" else asserted(g.context)
-    if spoken.event is not None:
-        of = with_event(of, spoken.event)
-    if thing is not None and of is not None:
-        of = with_thing(of, thing, g.context)
-    if of is None:
-        return None
-    event = first(of, Event)
-    match spoken.form:
-        case "when":
-            return Ask(When(of if first(of, Wanted) is None else affirmed(of)))
-        case "where" if event is not None:
-            return Ask(Where(event))
-        case "how":
-            return Ask(HowDecide(of))
-        case "sure":
-            return Ask(HowSure(of, time=spoken.time))
-    return None
