@@ -101,6 +101,22 @@ def test_who_limits_our_speed_is_who_holds_us_up_now(text: str) -> None:
     assert "no time to speak of" not in reply
 
 
+@pytest.mark.parametrize("at", [28.5, 29.0])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "are there people on the crossing",
+        "is anyone crossing",
+        "Is somebody on the crosswalk?",
+        "is anyone on the zebra crossing",
+    ],
+)
+def test_people_on_the_crossing_of_our_exit_cross_our_way(text: str, at: float) -> None:
+    told = Talk("city-0", at).hear(text)
+    assert told.startswith("Yes")
+    assert "(vehicle 7)" in told or "(vehicle 33)" in told
+
+
 def test_people_beside_the_crossing_of_our_exit_do_not() -> None:
     told = Talk("junction-0", 28.0).hear("are there people on the crossing")
     assert told.startswith("No")

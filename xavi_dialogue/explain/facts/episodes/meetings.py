@@ -13,7 +13,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import Side
 from xavi_dialogue.explain.facts.actions import named
-from xavi_dialogue.explain.facts.episodes.walks import walks_across
+from xavi_dialogue.explain.facts.episodes.walks import steps_onto, walks_across
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.states import Pair, States
 from xavi_dialogue.explain.history.motion import Array
@@ -57,7 +57,9 @@ def crossings(states: States, vehicle: int) -> list[Episode]:
     if shape is not None and shape.kind in ON_FOOT:
         seen = list(_walking_across(states, pair, vehicle))
         later = [e for e in walks_across(states, vehicle) if not any(_overlap(e, o) for o in seen)]
-        return [*seen, *later]
+        known = [*seen, *later]
+        onto = steps_onto(states, vehicle)
+        return [*known, *(e for e in onto if not any(_overlap(e, o) for o in known))]
     return list(_crossing(pair, vehicle))
 
 

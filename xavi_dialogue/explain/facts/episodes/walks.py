@@ -2,19 +2,23 @@
 
 import math
 from collections.abc import Iterator
+from itertools import groupby
 
 import numpy as np
 
-from planner.record.trace import SAMPLE_PERIOD
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.domain.vocabulary import Side
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import Array, Motion
+from xavi_dialogue.explain.history.ride import prediction
+from xavi_dialogue.explain.history.thresholds import STALE
 
 LONGEST = 60.0  # [s] between somebody who crosses and the ego at the same place
 ROAD = 4.0  # [m] to each side of the ego's line, within which somebody is on its way
+LIKELY = 0.5  # probability above which somebody on our road crosses our way
 LEAST = 0.05  # [m] minimum way between samples
 
 
@@ -32,6 +36,28 @@ def walks_across(states: States, vehicle: int) -> Iterator[Episode]:
             first, last = _on_way(walk, k)
             begin, end = walk.time[first], walk.time[last]
             yield Episode(Vehicle(vehicle), "cross", begin, end, Ego(), side)
+
+
+def steps_onto(states: States, vehicle: int) -> Iterator[Episode]:
+    """Yield when somebody was on foot on our road, and was expected to cross our way."""
+    known = [trace for trace in states.ride.traces if vehicle in trace.scene]
+    for on, run in groupby(known, lambda trace: _is_onto(trace, vehicle)):
+        times = [trace.sim_time for trace in run]
+        over = times[-1] < known[-1].sim_time or times[-1] < states.ride.now - STALE
+        if on and not (over and len(times) == 1):
+            until = times[-1] if over or states.ride.ended else None
+            yield Episode(Vehicle(vehicle), "cross", times[0], until, Ego())
+
+
+def _is_onto(trace: PlanTrace, vehicle: int) -> bool:
+    """Check whether somebody on foot is on the road that we are on, and about to cross our way."""
+    places = {} if trace.road is None else trace.road.places
+    ours, theirs = places.get(EGO), places.get(vehicle)
+    if ours is None or theirs is None or ours.edge != theirs.edge:
+        return False
+    known = prediction(trace, vehicle)
+    goals = () if known is None else known.goals
+    return sum(goal.probability for goal in goals if goal.kind == "cross") > LIKELY
 
 
 def _meets(walk: Motion, k: int, drive: Motion) -> tuple[float, Side] | None:
