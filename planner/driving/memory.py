@@ -20,7 +20,7 @@ from planner.record.places import LightChange
 from planner.record.trace import ON_FOOT, Track
 from planner.roads.sightlines import between, middle
 from planner.roads.trajectory import Roads
-from planner.traffic_lights.cycles import Watched, watch
+from planner.traffic_lights.observations import Watched, watch
 from sim.scene import EGO, Scene, VehicleState
 
 HISTORY = 10.0  # [s]

@@ -11,7 +11,8 @@ from planner.manoeuvres.plans import ActionPlan
 from planner.motion.obstacles import Obstacle
 from planner.record.light_record import LightPrediction
 from planner.roads.trajectory import Roads
-from planner.traffic_lights.cycles import Watched, foresee
+from planner.traffic_lights.cycles import foresee
+from planner.traffic_lights.observations import Watched
 from planner.traffic_lights.signals import MEANING, STEP, Lights
 from sim.scene import PersonState, Scene, Signal, VehicleState
 

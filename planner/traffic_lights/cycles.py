@@ -9,15 +9,18 @@ are assumed to be green together, and the arm that has been held longest to be n
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from statistics import NormalDist
 
 from planner.record.light_record import GREENS, UNSEEN, LightCourse, LightPrediction, Showing
 from planner.roads.trajectory import Roads
 from planner.traffic_lights.greens import residual
+from planner.traffic_lights.observations import Watched, alike, phases
 from sim.roads.network import Link, angle_between, point_at
 from sim.scene import LightState, Signal
 
 REACTION, BRAKING = 1.0, 3.05  # [s], [m/s2] of drivers who see amber
-CLEARANCE = 1.0  # [s] for which all are red
+#: Median [s] of the time for which all are red, and the deviation of its logarithm; assumed.
+CLEARANCE, CLEARANCE_SIGMA = 1.5, 0.7
 RED_AMBER = 1.0  # [s] of red and amber
 LEAST = 0.2  # [s] minimum duration of a state
 #: Quantiles of the time that a green has left, with their assumed probabilities.
@@ -30,14 +33,18 @@ RED, AMBER = LightState.RED.value, LightState.AMBER.value
 ABOUT_TO_GO = LightState.RED_AMBER.value
 DEAD = (LightState.OFF.value, LightState.FLASHING.value, UNSEEN)
 
+_NORMAL = NormalDist()
+
 
 @dataclass(frozen=True, slots=True)
-class Watched:
-    """The observations of one controller: every change, the last one being its present state."""
+class _Lasted:
+    """How long [s] a state has lasted, and the greens in it; and whether each was seen to begin."""
 
-    controller: str
-    places: tuple[int, ...]
-    seen: tuple[Showing, ...]
+    state: float
+    begun: bool
+    green: float
+    green_begun: bool
+    people: bool  # whether people on foot have a green that began after that of vehicles
 
 
 def foresee(
@@ -58,7 +65,7 @@ def foresee(
         ways: list[tuple[float, tuple[Showing, ...]]] = [(1.0, (cycle.here,))]
     else:
         again = cycle.again()
-        ways = [(share, cycle.reckoned(quantile)) for quantile, share in spread]
+        ways = [(share, cycle.reckoned(q, k)) for k, (q, share) in enumerate(spread)]
         if again is not None and closely:
             ends = [(share, way) for share, way in (ways[0], ways[-1])]
             total = sum(share for share, _ in ends)
@@ -100,7 +107,7 @@ class _Cycle:
         self._roads, self._watched = roads, watched
         self._time, self._until = time, until
         self.here = Showing(time, watched.seen[-1].states)
-        self._phases = _phases(watched.seen)
+        self._phases = phases(watched.seen)
         network = roads.network
         self._links = [
             network.signalled(Signal(watched.controller, place)) for place in watched.places
@@ -121,7 +128,7 @@ class _Cycle:
         """
         seen, last = self._phases, len(self._phases) - 1
         for j in range(last - 2, 0, -1):
-            if _alike(seen[j].states, seen[-1].states):
+            if alike(seen[j].states, seen[-1].states):
                 break
         else:
             return None
@@ -135,21 +142,57 @@ class _Cycle:
             k = k + 1 if k + 1 < last else j
         return tuple(found)
 
-    def reckoned(self, quantile: float) -> tuple[Showing, ...]:
-        """Return its course by the prior, if greens last as long as a quantile of their time."""
+    def reckoned(self, quantile: float, turn: int) -> tuple[Showing, ...]:
+        """Return its course by the prior.
+
+        Args:
+            quantile: of the time that greens last.
+            turn: which of the arms is next that have been held equally long, as far as was seen.
+        """
         found = [self.here]
         held = self._held_since()
         at, letters = self._time, self.here.states
-        spent, begun = self._time - self._phases[-1].time, len(self._phases) > 1
+        lasted = self._lasted()
         while at < self._until:
-            lasting, after = self._next(letters, held, quantile, spent, begun)
-            at += max(lasting, LEAST)
+            lasting, after = self._next(letters, held, quantile, turn, lasted)
+            lasting = max(lasting, LEAST)
+            at += lasting
             for k, letter in enumerate(after):
                 if letter == RED and letters[k] != RED:
                     held[k] = at
-            letters, spent, begun = after, 0.0, True
+            lasted = self._later(lasted, lasting, letters, after)
+            letters = after
             found.append(Showing(round(at, 3), letters))
         return tuple(found)
+
+    def _driving(self, letters: str) -> list[int]:
+        """Return the places at which vehicles have green."""
+        return [k for k, links in enumerate(self._links) if links and letters[k] in GREENS]
+
+    def _walking(self, letters: str) -> list[int]:
+        """Return the places at which people on foot have green."""
+        return [k for k in self._crossings if letters[k] in GREENS]
+
+    def _lasted(self) -> _Lasted:
+        """Return how long its state has lasted, and the greens in it."""
+        seen, now = self._phases, self.here.states
+        last = len(seen) - 1
+        going = self._driving(now)
+        first, kept = last, going or self._walking(now)
+        while first and all(seen[first - 1].states[k] in GREENS for k in kept):
+            first -= 1
+        alone = not self._driving(seen[first].states)
+        state = self._time - seen[last].time
+        green = self._time - seen[first].time
+        return _Lasted(state, last > 0, green, first > 0, alone and bool(kept) and not going)
+
+    def _later(self, lasted: _Lasted, lasting: float, before: str, now: str) -> _Lasted:
+        """Return how long a state has lasted that begins after another one."""
+        going = self._driving(now)
+        kept = any(before[k] in GREENS for k in going or self._walking(now))
+        green, begun = (lasted.green + lasting, lasted.green_begun) if kept else (0.0, True)
+        people = not going and bool(self._walking(now)) and (lasted.people or not kept)
+        return _Lasted(0.0, True, green, begun, people)
 
     def _held_since(self) -> dict[int, float]:
         """Return since when [s] each place has been red, by its position."""
@@ -167,8 +210,8 @@ class _Cycle:
         letters: str,
         held: Mapping[int, float],
         quantile: float,
-        spent: float,
-        begun: bool,
+        turn: int,
+        lasted: _Lasted,
     ) -> tuple[float, str]:
         """Return how long [s] a state still lasts, and the state after it.
 
@@ -176,21 +219,22 @@ class _Cycle:
             letters: the state.
             held: since when [s] each place has been red.
             quantile: of the time that a green has left.
-            spent: [s] for which the state has lasted.
-            begun: whether the state was seen to begin.
+            turn: which of the arms is next that have been held equally long.
+            lasted: how long the state has lasted.
         """
         if AMBER in letters or ABOUT_TO_GO in letters:
             lasting = self._amber(letters) if AMBER in letters else RED_AMBER
             after = letters.replace(AMBER, RED)
             going = {k for k, letter in enumerate(letters) if letter == ABOUT_TO_GO}
-            return lasting - spent, self._with_green(after, going) if going else after
-        if any(letter in letters for letter in GREENS):
-            left = residual(quantile, spent, begun=begun)
+            return lasting - lasted.state, self._with_green(after, going) if going else after
+        if self._driving(letters) or lasted.people:
+            left = residual(quantile, lasted.green, begun=lasted.green_begun)
             return left, "".join(AMBER if letter in GREENS else letter for letter in letters)
-        left = CLEARANCE - spent
-        if not begun:  # an arm out of view has green
-            left = residual(quantile, spent, begun=False) + REACTION + CLEARANCE
-        return left, self._with_green(letters, self._stage(letters, held))
+        clearance = CLEARANCE * math.exp(CLEARANCE_SIGMA * _NORMAL.inv_cdf(quantile))
+        left = clearance - lasted.state
+        if not lasted.begun:  # an arm out of view has green
+            left = residual(quantile, lasted.state, begun=False) + REACTION + clearance
+        return left, self._with_green(letters, self._stage(letters, held, turn))
 
     def _amber(self, letters: str) -> float:
         """Return how long [s] amber lasts."""
@@ -203,12 +247,13 @@ class _Cycle:
         ]
         return REACTION + max(limits, default=self._roads.fastest) / (2.0 * BRAKING)
 
-    def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
+    def _stage(self, letters: str, held: Mapping[int, float], turn: int) -> set[int]:
         """Return the next arms with green: the one held longest, and those beside and opposite.
 
-        The arms held last are green with it only if it was held no longer. If a crossing has been
-        held longer than any arm, an arm is next with which it can be green. If there is none, only
-        people on foot have green.
+        Of several that have been held equally long, `turn` counts out one. The arms held last are
+        green with it only if it was held no longer. If a crossing has been held longer than any
+        arm, an arm is next with which it can be green. If there is none, only people on foot have
+        green.
         """
         waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
         order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
@@ -218,7 +263,13 @@ class _Cycle:
             stages = (self._with(first, waiting, held) for first in order)
             fitting = (x for x in stages if self._with_green(letters, x)[longest] != RED)
             return next(fitting, set())
-        return self._with(order[0], waiting, held) if order else set()
+        equal = [k for k in order if held[k] <= held[order[0]] + LEAST]
+        alike: list[set[int]] = []
+        for first in equal:
+            stage = self._with(first, waiting, held)
+            if stage not in alike:
+                alike.append(stage)
+        return alike[turn % len(alike)] if alike else set()
 
     def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
         """Return an arm that has green, and those beside and opposite that have it too."""
@@ -244,7 +295,7 @@ class _Cycle:
         return self._with_people(now, ours)
 
     def _with_people(self, letters: str, going: Sequence[Link]) -> str:
-        """Return the state with crossings green if all green links over them turn and give way."""
+        """Return the state with crossings green over which all green links turn and give way."""
         found = list(letters)
         for k, crossing in self._crossings.items():
             met = [x for x in going if x.junction == crossing.junction]
@@ -253,24 +304,9 @@ class _Cycle:
             yielding = all(crossing.index in x.other_yields_to for x in over)
             if letters[k] == RED and turning and yielding:
                 found[k] = LightState.GREEN.value
+            elif letters[k] in GREENS and not (turning and yielding):
+                found[k] = RED
         return "".join(found)
-
-
-def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
-    """Return the changes since the controller came into view, except for places coming in view."""
-    found: list[Showing] = []
-    for showing in seen:
-        if all(letter == UNSEEN for letter in showing.states):
-            found = []
-        elif not found or not _alike(found[-1].states, showing.states):
-            found.append(showing)
-    return tuple(found)
-
-
-def _alike(one: str, other: str) -> bool:
-    """Check whether two states agree at all places seen in both, and at least one was."""
-    pairs = [(a, b) for a, b in zip(one, other, strict=True) if UNSEEN not in (a, b)]
-    return bool(pairs) and all(a == b for a, b in pairs)
 
 
 def _meet(one: Link, other: Link) -> bool:
@@ -285,28 +321,3 @@ def _parallel(roads: Roads, one: Link, other: Link) -> bool:
         headings.append(point_at(lane.centreline, lane.length)[1])
     apart = abs(angle_between(*headings))
     return min(apart, math.pi - apart) <= PARALLEL
-
-
-def watch(
-    before: Watched | None, controller: str, shown: Mapping[int, str], time: float, most: int
-) -> Watched:
-    """Return the observations of a controller, with a new one.
-
-    Args:
-        before: earlier observations.
-        controller: its name.
-        shown: the letters of the places that are in view.
-        time: [s] of the new observation.
-        most: maximum number of changes that are kept.
-    """
-    known: Sequence[int] = () if before is None else before.places
-    places = tuple(sorted({*known, *shown}))
-    seen: list[Showing] = []
-    for showing in () if before is None else before.seen:
-        had = dict(zip(known, showing.states, strict=True))
-        states = "".join(had.get(place, UNSEEN) for place in places)
-        seen.append(Showing(showing.time, states))
-    states = "".join(shown.get(place, UNSEEN) for place in places)
-    if not seen or seen[-1].states != states:
-        seen.append(Showing(round(time, 3), states))
-    return Watched(controller, places, tuple(seen[-most:]))

@@ -17,7 +17,7 @@ from planner.record.light_record import Showing
 from planner.record.trace import Action
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
-from planner.traffic_lights.cycles import Watched
+from planner.traffic_lights.observations import Watched
 from planner.traffic_lights.signals import MEANING, OPEN, Lights
 from sim.roads.lanes import Lane, Link
 from sim.roads.lines import point_at

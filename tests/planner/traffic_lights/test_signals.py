@@ -24,8 +24,9 @@ from planner.motion.obstacles import Obstacle, Traffic
 from planner.record.light_record import Showing
 from planner.record.trace import Action, EgoGoal
 from planner.rollouts.rollout import Task, summarise, take
-from planner.traffic_lights.cycles import Watched, foresee, supposed
+from planner.traffic_lights.cycles import foresee, supposed
 from planner.traffic_lights.greens import LONG, SHORT, residual
+from planner.traffic_lights.observations import Watched
 from planner.traffic_lights.signals import Lights, Outlook
 from sim.roads.network import Direction
 from sim.scene import Signal
