@@ -8,6 +8,7 @@ from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
     LightForeseen,
+    LightOdds,
     LightPassed,
     LightTold,
     Shown,
@@ -34,6 +35,10 @@ OPEN = Foreseen(RED, NOW, "green", 0.7, 30.0, NOW + 12.0, NOW + 4.0)
 NEVER = Foreseen(RED, NOW, "green", 0.3, 30.0, None, NOW + 20.0)
 KNOWN = Foreseen(RED, NOW, "green", 1.0, 30.0, NOW + 3.0, NOW + 3.0, NOW + 3.5, cycle=True)
 CAME = Foreseen(WAS_RED, 4.0, "green", 0.7, 30.0, 14.0, 7.0, came=8.0)
+ODDS = LightOdds("green", NOW + 8.0, 0.3, False)
+GOOD_ODDS = LightOdds("green", NOW + 8.0, 0.7, False)
+STAYING = LightOdds("red", NOW + 8.0, 0.99, True)
+GOING = LightOdds("red", NOW + 8.0, 0.01, True)
 STOOD = Episode(E, "stop", 5.0, standing=True)
 HELD = MotionCause("light", necessary=True, value=4.0, shown=RED)
 QUEUE = MotionCause("leader", 1, speed=0.0)
@@ -86,6 +91,11 @@ CASES: tuple[Answer, ...] = (
     LightForeseen(SPREAD, RED, asked="met", holds=True, stops=0.99),
     LightForeseen(None, GREEN, asked="met", holds=True, stops=0.02),
     LightForeseen(None, GREEN, asked="met", stops=0.3),
+    LightForeseen(SPREAD, RED, asked="how-sure", odds=ODDS),
+    LightForeseen(SPREAD, RED, asked="whether", holds=True, odds=GOOD_ODDS),
+    LightForeseen(SPREAD, RED, asked="whether", holds=False, odds=ODDS),
+    LightForeseen(None, RED, asked="whether", holds=True, odds=STAYING),
+    LightForeseen(None, RED, asked="whether", holds=False, odds=GOING),
     LightPassed(AT_GREEN, "red", False),
     LightPassed(AT_GREEN, "red", False, "claim"),
     LightPassed(AT_GREEN, "red", False, "why"),

@@ -56,6 +56,15 @@ class Foreseen(Value, frozen=True):
     came: float | None = None  # [s] when it actually changed
 
 
+class LightOdds(Value, frozen=True):
+    """The expectation whether a traffic light shows a colour by some moment, or at it."""
+
+    colour: LightColour
+    by: float  # [s]
+    chance: float  # probability that it has turned to the colour by then, or still shows it
+    stays: bool  # whether it shows that colour now
+
+
 # --- answers --------------------------------------------------------------------------------------
 
 
@@ -90,6 +99,7 @@ class LightForeseen(Value, frozen=True):
     asked: Literal["when", "whether", "how-sure", "going", "met"] = "when"
     holds: bool | None = None  # the reply to the question whether it will change, or is met so
     stops: float | None = None  # probability that we have to stop for it, if "met" is asked
+    odds: LightOdds | None = None  # what is asked of a moment or stretch of time to come
 
 
 class LightPassed(Value, frozen=True):

@@ -92,7 +92,7 @@ def grounder(world: FakeWorld = RIDE, discourse: Discourse | None = None) -> Ter
         (Between(20.0, 12.0), 12.0, 20.0, Between(12.0, 20.0), (12.0, 20.0)),
         (Between(35.0, 50.0), 35.0, 40.0, Between(35.0, 40.0), (35.0, 40.0)),
         (Between(45.0, 50.0), 45.0, 50.0, Between(45.0, 50.0), (45.0, 50.0)),
-        (Within(5.0), 40.0, 45.0, Next(), (40.0, 45.0)),
+        (Within(5.0), 40.0, 45.0, Within(5.0), (40.0, 45.0)),
         (Within(), 40.0, 55.0, Next(), (40.0, 55.0)),
         (Next(), 40.0, 55.0, Next(), (40.0, 55.0)),
         (Start(), 0.0, 8.0, Between(0.0, 8.0), (0.0, 8.0)),

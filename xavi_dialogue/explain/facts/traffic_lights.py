@@ -14,6 +14,7 @@ from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
     LightColour,
+    LightOdds,
     Shown,
 )
 from xavi_dialogue.explain.facts.episodes.light_waits import facing
@@ -192,6 +193,26 @@ def _turns(
             if later and COLOURS.get(change.states[at]) == to:
                 yield change.time, course.probability
                 break
+
+
+def odds_of(ride: Ride, signal: Signal, by: float, colour: LightColour) -> LightOdds | None:
+    """Return how likely a light has turned to a colour by a time [s], or still shows it then.
+
+    None if it was not in view, or the courses expected of it do not reach that far.
+    """
+    trace = ride.at(ride.now)
+    known = None if trace is None else _prediction(trace, signal)
+    now = None if trace is None else shown(ride, signal, trace.sim_time)
+    if trace is None or known is None or now is None:
+        return None
+    if by > trace.sim_time + trace.settings.horizon:
+        return None
+    at, stays = known.places.index(signal.index), COLOURS.get(now.state) == colour
+    chance = 0.0
+    for course in known.courses:
+        until = [COLOURS.get(x.states[at]) for x in course.showings if x.time <= by]
+        chance += course.probability * (until[-1] == colour if stays else colour in until)
+    return LightOdds(colour, by, min(chance, 1.0), stays)
 
 
 def _middle(times: Sequence[tuple[float, float]]) -> float | None:

@@ -88,7 +88,7 @@ def stretch(begin: float, end: float, search: tuple[float, float], **more: Any) 
                                  ahead=True)),
         (AtDecision(99), Window(2.0, 40.0, Unsaid(), (2.0, 40.0))),
         (Within(), stretch(40.0, 55.0, (40.0, 55.0), term=Next(), ahead=True)),
-        (Within(4.0), stretch(40.0, 44.0, (40.0, 44.0), term=Next(), ahead=True)),
+        (Within(4.0), stretch(40.0, 44.0, (40.0, 44.0), term=Within(4.0), ahead=True)),
         (Next(), stretch(40.0, 55.0, (40.0, 55.0), term=Next(), ahead=True)),
         (Between(9.0, 5.0), stretch(5.0, 9.0, (5.0, 9.0), whole=True)),
         (Between(30.0, 50.0), stretch(30.0, 40.0, (30.0, 40.0), whole=True)),

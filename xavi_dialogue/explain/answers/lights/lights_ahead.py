@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Measured,
     Proposition,
+    Within,
 )
 from xavi_dialogue.domain.traffic_lights import COLOURS, LightColour, LightForeseen, LightTold
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -27,7 +28,7 @@ from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.facts.episodes.light_events import SHOWING, light_of
 from xavi_dialogue.explain.facts.episodes.light_waits import holds
-from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, shown_at
+from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, odds_of, shown_at
 from xavi_dialogue.explain.history.traffic_lights import stretches
 
 STILL = 0.3  # [m/s] up to which we have stopped
@@ -127,12 +128,26 @@ def _forecast(of: Proposition | None, scene: Asked, asked: Any) -> Answer:
     signal = meant(scene.ride, light, scene.now)
     one = shown_at(scene.ride, light, scene.now)
     found = None if signal is None else foreseen(scene.ride, signal, scene.now, wanted)
+    within = seconds_given(of)
+    to = wanted or (None if found is None else found.to)
+    if within is not None and signal is not None and one is not None and to is not None:
+        odds = odds_of(scene.ride, signal, scene.now + within, to)
+        if odds is not None:
+            holds = (odds.chance >= 0.5) != unwrapped(of)[1] if asked == "whether" else None
+            return LightForeseen(found, one, asked=asked, holds=holds, odds=odds)
     whether = asked == "whether" and found is not None
     negated = unwrapped(of)[1]
     holds = (found.middle is not None) != negated if whether and found is not None else None
     if found is None and one is not None and wanted != one.colour:
         return LightTold("colour", one, time=scene.now)
     return LightForeseen(found, one, asked=asked, holds=holds)
+
+
+def seconds_given(of: Proposition | None) -> float | None:
+    """Return in how many seconds something is to be so; None: no time was said."""
+    inner, _ = unwrapped(of)
+    time = inner.event.time if isinstance(inner, Happens) else getattr(inner, "time", None)
+    return time.seconds if isinstance(time, Within) else None
 
 
 def how_known(question: HowKnow, scene: Asked) -> Answer:

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.terms import Believed, Event, Feature, Happens, Propos
 from xavi_dialogue.domain.traffic_lights import LightForeseen
 from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED
 from xavi_dialogue.explain.answers.expectations.plans import current_plan, stopping_at_light
+from xavi_dialogue.explain.answers.lights.lights_ahead import seconds_given
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped
@@ -34,7 +35,7 @@ def wanted(
     if isinstance(of, Believed):
         of, negated = unwrapped(of.content)
     if not isinstance(of, Happens) or not is_own(of.event.actor):
-        if not _turns_green(of):
+        if not _turns_green(of) or seconds_given(of) is not None:
             return None
         through = True
     elif (passes := _passes(of.event, tenses)) is not None:

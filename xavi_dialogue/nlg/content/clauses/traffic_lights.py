@@ -6,6 +6,7 @@ from xavi_dialogue.domain.traffic_lights import (
     Foreseen,
     LightColour,
     LightForeseen,
+    LightOdds,
     LightPassed,
     LightTold,
     Shown,
@@ -125,6 +126,8 @@ def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
     reply = {None: "", True: "yes", False: "no"}[answer.holds]
     if answer.stops is not None:
         return _met(answer, answer.stops, reply, context)
+    if answer.odds is not None:
+        return _odds(answer, answer.odds, reply, context)
     if found is None:
         shown = answer.shown
         colour = None if shown is None else COLOURS[shown.colour]
@@ -135,6 +138,24 @@ def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
     sure = found.middle is not None and _exact(found)
     basis = () if sure else (message("LIGHT_BASIS", cycle=found.cycle),)
     return Plan((core,), basis)
+
+
+def _odds(answer: LightForeseen, odds: LightOdds, reply: str, context: SpeechContext) -> Plan:
+    """Plan how likely a light shows a colour by some moment, and when it is expected to change."""
+    core = message(
+        "LIGHT_CHANCE",
+        reply=reply,
+        sure=not 1.0 - CERTAIN < odds.chance < CERTAIN,
+        stays=odds.stays,
+        light=Who(Feature("light")),
+        colour=COLOURS[odds.colour],
+        after=Quantity(max(odds.by - context.now, 0.0), "s"),
+        chance=Chance(odds.chance),
+    )
+    found = answer.foreseen
+    told = () if found is None else (message("LIGHT_EXPECT", **_belief(found, answer, context)),)
+    basis = message("LIGHT_BASIS", cycle=found is not None and found.cycle)
+    return Plan((core,), (*told, basis))
 
 
 def _met(answer: LightForeseen, stops: float, reply: str, context: SpeechContext) -> Plan:

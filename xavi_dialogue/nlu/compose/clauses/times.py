@@ -1,6 +1,6 @@
 """Times: phrases that say when."""
 
-from typing import Any
+from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
     Ago,
@@ -140,6 +140,14 @@ def seconds_of(node: Node) -> float | None:
     if any(one.key == "many" for one in determiners):
         return FEW * scale
     return scale if any(one.words[0] in ("a", "one") for one in determiners) else None
+
+
+def time_within(node: Node, clause: Clause) -> Within | None:
+    """Read "within five seconds" of what is to come; None: it is no time."""
+    amount = cast(Node, node.parts[1])
+    if len(node.parts) > 2 or leaf_of(amount, "TUNIT") is None or clause.tense == "past":
+        return None
+    return Within(seconds_of(amount))
 
 
 def number_before(node: Node) -> float | None:

@@ -22,7 +22,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import (
     takes_name,
 )
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, Sem, SideOf, is_named
-from xavi_dialogue.nlu.compose.clauses.times import PAST
+from xavi_dialogue.nlu.compose.clauses.times import PAST, time_within
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.compose.propositions.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.propositions.tally import frequency
@@ -287,11 +287,12 @@ class Phrases(Adjuncts):
             clause.than = None  # "as hard as it felt"
 
     def _on_within(self, node: Node, clause: Clause) -> None:
-        """Read "within two metres of us" as being closer than that."""
+        """Read "within two metres of us" as being closer than that, "within 5 s" as a time."""
+        if (soon := time_within(node, clause)) is not None:
+            clause.time = soon
+            return
         clause.comparisons.append(("close", "within"))
-        amount = cast(Node, node.parts[1])
-        amount = Node("np", (amount,), amount.start, amount.end, 0.0)
-        clause.than = self.nouns.read(amount)
+        clause.than = self.nouns.read(Node("np", node.parts[1:2], node.start, node.end, 0.0))
         to = self.nouns.read(cast(Node, node.parts[3])) if len(node.parts) > 2 else Ego()
         if len(node.parts) == 2 and getattr(clause.than, "unit", "m") != "m":
             self.notes.unknown.append(node.leaves[0])  # "within two seconds" is no distance

@@ -76,7 +76,8 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
         case AtDecision(number=number, last=last):
             return _decided(number, number if last is None else last, context)
         case Within(seconds=after):
-            return _coming(context, SOON if after is None else after, said=True)
+            coming = _coming(context, SOON if after is None else after, said=True)
+            return coming if after is None else replace(coming, term=time)
         case Between(begin=first, end=last):
             first, last = min(first, last), max(first, last)
             last = now if first < now < last else last
