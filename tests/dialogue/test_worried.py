@@ -46,7 +46,7 @@ def test_names_the_people_in_front_of_us_where_it_is_asked_whether_it_is_safe() 
 @pytest.mark.parametrize(
     ("at", "before", "reply"),
     [
-        (9.0, "Who could hit us?", "Stopping carries a risk of 21 % of a collision with the"),
+        (10.0, "Who could hit us?", "Stopping carries a risk of 18 % of a collision with the"),
         (9.0, "Where are we?", "The pedestrian (vehicle 8) will be in our way"),
         (24.0, "Who could hit us?", "The green bicycle (vehicle 3) will be in our way"),
     ],

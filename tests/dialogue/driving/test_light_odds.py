@@ -46,8 +46,8 @@ def test_what_still_shows_is_the_rest(asked: str) -> None:
 
 
 def test_yes_and_no_follow_the_chance() -> None:
-    assert Talk("city-0", RED).hear("Will it turn green within 3 seconds?").startswith("No: ")
-    assert Talk("city-0", RED).hear("Will it be red in 3 seconds?").startswith("Yes: ")
+    assert Talk("city-0", RED).hear("Will it turn green within 2 seconds?").startswith("No: ")
+    assert Talk("city-0", RED).hear("Will it be red in 2 seconds?").startswith("Yes: ")
 
 
 def test_beyond_what_is_foreseen_no_chance_is_stated() -> None:

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from planner.record.light_record import LightPrediction
 from planner.record.trace import PlanTrace
 from planner.traffic_lights.cycles import BRAKING, REACTION
@@ -207,12 +209,32 @@ def odds_of(ride: Ride, signal: Signal, by: float, colour: LightColour) -> Light
         return None
     if by > trace.sim_time + trace.settings.horizon:
         return None
-    at, stays = known.places.index(signal.index), COLOURS.get(now.state) == colour
-    chance = 0.0
-    for course in known.courses:
-        until = [COLOURS.get(x.states[at]) for x in course.showings if x.time <= by]
-        chance += course.probability * (until[-1] == colour if stays else colour in until)
-    return LightOdds(colour, by, min(chance, 1.0), stays)
+    stays = COLOURS.get(now.state) == colour
+    to = next(_next(known, signal, trace.sim_time, colour), None) if stays else colour
+    within = [] if to is None else sorted(_turns(known, signal, trace, to))
+    turned = _cumulated(within, by, trace.sim_time, trace.sim_time + trace.settings.horizon)
+    return LightOdds(colour, by, 1.0 - turned if stays else turned, stays)
+
+
+def _cumulated(times: Sequence[tuple[float, float]], by: float, now: float, end: float) -> float:
+    """Return the probability that something happens by a time [s].
+
+    Args:
+        times: when [s] it happens in each course that reaches it, in order, and its share.
+        by, now, end: the time, that of the decision, and the end of the courses, [s].
+
+    A course stands for all times around its own, so half of its share lies before it. One with
+    most of the probability is a cycle that was seen, and stands for itself.
+    """
+    if any(share > 0.5 for _, share in times):
+        return min(sum(share for time, share in times if time <= by + ROUNDING), 1.0)
+    points, mass = [(now, 0.0)], 0.0
+    for time, share in times:
+        points.append((time, mass + 0.5 * share))
+        mass += share
+    last, before = points[-1][0], points[-2][0] if times else now
+    points.append((end, mass) if mass < 1.0 - ROUNDING else (2.0 * last - before, 1.0))
+    return float(np.interp(by, [time for time, _ in points], [share for _, share in points]))
 
 
 def _middle(times: Sequence[tuple[float, float]]) -> float | None:
