@@ -77,5 +77,6 @@ def whys(act: GroundedAct, deeds: Sequence[Episode], now: float) -> tuple[Ground
     """Return the questions why each of the last few actions was done, at its time."""
     spans = ((d, Span(d.begin, now if d.end is None else d.end, said=True)) for d in deeds[-EACH:])
     return tuple(
-        replace(act, act=Ask(Why(Happens(event_of(deed)))), span=span) for deed, span in spans
+        replace(act, act=Ask(Why(Happens(event_of(deed)))), span=span, listed=act.span)
+        for deed, span in spans
     )

@@ -33,16 +33,21 @@ from xavi_dialogue.domain.answers import (
     Refusal,
     SupposedOfUs,
 )
-from xavi_dialogue.domain.discourse import Discourse, Mention
+from xavi_dialogue.domain.discourse import Discourse, Mention, Span
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import (
     Ask,
+    Changed,
     Claim,
     Compare,
+    Doing,
     Feel,
     HowMuch,
+    Listing,
+    Peak,
     Question,
     Request,
+    Summarise,
     WhatIf,
     Whether,
     Why,
@@ -102,6 +107,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         question=new.question or discourse.question,
         propositions=(*new.propositions, *discourse.propositions)[:ASSERTED],
         episode=new.episode or (None if _is_over(discourse, turn) else discourse.episode),
+        stretch=discourse.stretch if new.episode in (None, discourse.stretch) else new.stretch,
         offered=() if offer is None else offer.acts,
         offered_things=() if offer is None else offer.things,
         pending=None if offer is None else offer.pending,
@@ -131,6 +137,7 @@ class _News:
     mentions: tuple[Mention, ...]  # as if in turn 0
     propositions: tuple[Proposition, ...]
     episode: tuple[float, float] | None
+    stretch: tuple[float, float] | None
     weighed: _Weighed | None  # None: as before
     times: tuple[float, ...]
 
@@ -144,6 +151,7 @@ def _news(turn: Turn) -> _News:
         mentions=(*_mentions(turn, 0), *_named(turn, 0)),
         propositions=tuple(asserted(turn))[:ASSERTED],
         episode=_episode(turn),
+        stretch=_stretch_named(turn),
         weighed=_weighed(turn),
         times=tuple(_times(turn)),
     )
@@ -271,10 +279,32 @@ def _named(turn: Turn, number: int) -> Iterator[Mention]:
 def _episode(turn: Turn) -> tuple[float, float] | None:
     """Return the part of the ride [s] that was discussed last, for "that" and "then"."""
     now = turn.reply.sim_time
+    if (named := _stretch_named(turn)) is not None:
+        return named
     for part in reversed(turn.parts):
         found = _of_deed(part) or _told(part.result, now) or _asked(part)
         if found is not None and found[1] - found[0] <= LONG:
             return found
+    return None
+
+
+def _stretch_named(turn: Turn) -> tuple[float, float] | None:
+    """Return the part of the ride [s] of which the last account or list was asked by name."""
+    named = next((span for p in reversed(turn.parts) if (span := _named_part(p))), None)
+    return None if named is None or named.end - named.begin > LONG else (named.begin, named.end)
+
+
+def _named_part(part: Part) -> Span | None:
+    """Return the part of the ride of which an account or a list was asked, if it was named."""
+    asked = None if part.act is None else part.act
+    if asked is None or asked.listed is not None:
+        listed = None if asked is None else asked.listed
+        return None if listed is None or listed.whole or not listed.said else listed
+    match asked.act:
+        case Ask(question=Doing() | Summarise() | Listing() | Peak() | Changed()):
+            span = asked.span
+            long = span is not None and span.said and span.begin < span.end
+            return span if long and span is not None and not (span.whole or span.ahead) else None
     return None
 
 

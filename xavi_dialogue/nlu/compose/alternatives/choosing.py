@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.comparing import BY
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 
 T = TypeVar("T")
@@ -40,6 +41,10 @@ _EXTREMES = {"fastest": ("speed", False), "quickest": ("speed", False), "slowest
              "biggest": ("size", False), "largest": ("size", False), "smallest": ("size", True),
              "nearest": ("distance", False), "closest": ("distance", False),
              "farthest": ("distance", True), "furthest": ("distance", True)}  # fmt: skip
+#: The same of deeds and options: "which of them was the riskiest".
+_RANKS = {"difficult": ("comfort", True), "dangerous": ("safety", True), "biggest": ("size", False),
+          "smallest": ("size", True), "highest": ("best", True), "lowest": ("best", True),
+          "best": ("best", False), "uncomfortable": ("comfort", True)}  # fmt: skip
 _FIRST = frozenset({"before", "bearing-ahead"})
 _LATER = frozenset({"behind", "bearing-behind", "after"})
 _IN_LINE = {"ahead": False, "behind": True}
@@ -85,6 +90,13 @@ def superlative_of(clause: Clause) -> tuple[str, bool] | None:
     """Return the attribute of a superlative, and whether it is the least: "the slowest"."""
     named = [*(getattr(sem, "extreme", None) for sem, _ in clause.objects), *sorted(clause.focus)]
     return next((_EXTREMES[one] for one in named if one in _EXTREMES), None)
+
+
+def ranked_by(clause: Clause) -> tuple[str, bool] | None:
+    """Return by what one of several deeds or options is ranked, and whether it is the least."""
+    nodes = (leaf for _, node in clause.objects for leaf in leaves_of(node))
+    keys = (leaf.key for leaf in (*nodes, *clause.skipped) if leaf.category == "SUPER")
+    return next((_RANKS[key] for key in keys if key in _RANKS), None)
 
 
 def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:

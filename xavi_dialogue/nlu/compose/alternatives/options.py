@@ -18,7 +18,13 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.alternatives.choosing import by_of, in_line, least_of, superlative_of
+from xavi_dialogue.nlu.compose.alternatives.choosing import (
+    by_of,
+    in_line,
+    least_of,
+    ranked_by,
+    superlative_of,
+)
 from xavi_dialogue.nlu.compose.alternatives.comparing import BY
 from xavi_dialogue.nlu.compose.alternatives.effects import Effects
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
@@ -85,6 +91,8 @@ class Options(Effects):
         if wh.kind == "why":
             return self.outdone(clause)
         most = superlative_of(clause)
+        if most is None and several_of(wh.of) == Pronoun("them-all"):
+            most = ranked_by(clause)
         if wh.kind not in ("which", "what", "who") or not (clause.comparisons or most):
             return None
         if most is not None:

@@ -190,12 +190,14 @@ def timed_by(clause: Clause) -> None:
 
 
 def _earlier(clause: Clause) -> None:
-    """Take "earlier" in "did you brake earlier?" as a time: nothing is compared."""
+    """Take "earlier" in "did you brake earlier?", and "then", as a time."""
     alone = clause.comparisons == [("soon", "earlier")] and clause.than is None
     untimed = isinstance(clause.time, Unsaid) and isinstance(clause.than_time, Unsaid)
     happened = not clause.negated and not {"do-past", "have-present"}.isdisjoint(clause.aux)
     if alone and untimed and happened and clause.modal is None:
         clause.comparisons, clause.time = [], Back("earlier")
+    if "then" in clause.focus and untimed and clause.tense == "past" and clause.modal is None:
+        clause.time = Back("during")  # "how fast were we then?"
 
 
 def _be_back(clause: Clause) -> None:

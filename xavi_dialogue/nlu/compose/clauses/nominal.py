@@ -27,6 +27,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Both,
     Caused,
     Described,
     Destination,
@@ -180,6 +181,20 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
     return HowMuch(of_numbers(measured), sem.extreme)
 
 
+def _deed_of(about: Proposition | None) -> Event | None:
+    """Give the deed whose reasons are listed; of "you slowed or stopped", the slowing."""
+    match about:
+        case Happens(event=event):
+            return event
+        case Both(contents=contents) if deeds := [one for one in map(_deed_of, contents) if one]:
+            times = (deed.time for deed in deeds if not isinstance(deed.time, Unsaid))
+            slowed = [deed for deed in deeds if deed.action in ("slow-down", "brake")]
+            return structs.replace([*slowed, *deeds][0], time=next(times, Unsaid()))
+        case Is(state="stationary", thing=Ego(), time=time, tense="past"):
+            return Event("stop", time=time)
+    return None
+
+
 def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
     about = propose(sem.about) or propose(sem.of) or sem.clause
     about = sem.clause if isinstance(sem.clause, Not) else about
@@ -192,7 +207,7 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return WhatWouldChange(about, most=True)
         return Why(about or That())
     if sem.key == "reason":
-        each = about.event if isinstance(about, Happens) else None
+        each = _deed_of(about)
         return Listing("reasons", None if each else thing, time, each)
     if sem.key in _LISTED:
         return _list_of(sem, about, thing, time)

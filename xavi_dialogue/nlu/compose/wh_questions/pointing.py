@@ -1,10 +1,10 @@
 """Pointing: questions for what stands out: "where did you brake hardest", "which came closest"."""
 
-from typing import cast, get_args
+from typing import Final, cast, get_args
 
-from xavi_dialogue.domain.meaning import Question, Why
-from xavi_dialogue.domain.terms import Described, That, Thing
-from xavi_dialogue.domain.vocabulary import Bearing
+from xavi_dialogue.domain.meaning import Compare, Peak, Question, Why
+from xavi_dialogue.domain.terms import Described, Pronoun, That, Thing
+from xavi_dialogue.domain.vocabulary import Bearing, Merit, PeakKind
 from xavi_dialogue.nlu.compose.alternatives.nearness import is_choice, rivals
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.peaks import deed_asked, nearest_of, peak_of
@@ -13,6 +13,14 @@ from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
 
 _NEAR = frozenset({"around", "here", "there"})
 _POINTING = frozenset({"where", "when", "what", "who", "which", "count"})
+
+
+#: By what "which of those cost the most time" ranks, and whether the most is the worst.
+_MERITS: Final[dict[PeakKind, tuple[Merit, bool]]] = {
+    "delay": ("time", True), "waiting": ("size", False), "slowing": ("comfort", True),
+    "braking": ("comfort", True), "difficulty": ("comfort", True), "danger": ("safety", True),
+    "risk": ("safety", True),
+}  # fmt: skip
 
 
 def pointed(wh: Wh, clause: Clause) -> Question | None:
@@ -24,6 +32,9 @@ def pointed(wh: Wh, clause: Clause) -> Question | None:
     most = peak_of(clause)
     if most is not None and any(map(is_choice, (wh.of, wh.sem, clause.subject))):
         return rivals(clause)  # "which of the other options came closest"
+    those = isinstance(wh.of, Pronoun) and wh.of.form in ("they", "them-all")
+    if isinstance(most, Peak) and those and most.of in _MERITS:
+        return Compare((Pronoun("them-all"),), *_MERITS[most.of])
     named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
     if most is not None and (named or wh.kind in _POINTING):
         return most

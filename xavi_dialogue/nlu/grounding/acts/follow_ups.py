@@ -49,6 +49,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     explained,
     proposition_of,
 )
+from xavi_dialogue.nlu.grounding.completion.listed import of_listed
 from xavi_dialogue.nlu.grounding.completion.supposing import is_on_red
 from xavi_dialogue.nlu.grounding.context import Grounder
 
@@ -69,7 +70,8 @@ def followed(spoken: Question, g: Grounder) -> Question:
     """Ask of the option or decision under discussion, where nothing else is said."""
     discourse = g.context.discourse
     asked = discourse.question
-    if (meant := of_them(spoken, g) or _limiting(spoken) or _suspecting(spoken, g)) is not None:
+    meant = of_them(spoken, g) or of_listed(spoken, g) or _limiting(spoken)
+    if (meant := meant or _suspecting(spoken, g)) is not None:
         return meant
     if (option := discourse.option) is not None and is_on_red(option) and _judges_that(spoken):
         g.notes.leaned = True

@@ -230,7 +230,7 @@ def _compare(spoken: Compare, g: Grounder) -> Compare:
 
 
 def _listing(spoken: Listing, g: Grounder) -> Listing:
-    window = over((spoken := timing.seen_then(spoken, g)).time, g)
+    window = over((spoken := timing.seen_then(timing.of_deed(spoken), g)).time, g)
     if spoken.of in _OF_MOMENTS:
         window = pointed(spoken.time, window)
         g.notes.span = window.span

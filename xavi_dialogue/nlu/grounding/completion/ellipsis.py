@@ -23,6 +23,7 @@ from xavi_dialogue.domain.meaning import (
     Request,
     Summarise,
     WhatIf,
+    When,
     Where,
     Whether,
     Which,
@@ -57,6 +58,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     proposition_of,
     questioned,
 )
+from xavi_dialogue.nlu.grounding.completion.listed import one_of_listed
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.showing import anew, showing
@@ -72,6 +74,9 @@ def complete(spoken: Elliptic, g: Grounder) -> Act | None:
     question = under_discussion(g)
     time = Back("before") if spoken.time == Back("earlier") else spoken.time  # "and earlier?"
     spoken = replace(spoken, thing=_typed(spoken.thing, question), time=time)
+    if (one := one_of_listed(spoken, g)) is not None and one.event is not None:
+        done = Happens(one.event)
+        return Ask(Why(done) if spoken.form == "why" else When(done))
     match spoken.form:
         case "why" | "why-not":
             return anew(spoken, g) or _why(spoken, question, g)

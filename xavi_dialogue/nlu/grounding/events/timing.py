@@ -86,6 +86,14 @@ def believed_last(g: Grounder) -> Proposition | None:
     return found.content
 
 
+def of_deed(spoken: Listing) -> Listing:
+    """Take the time of the deeds that are listed for that of the list, which has none."""
+    deed = spoken.event
+    if deed is None or isinstance(deed.time, Unsaid) or not isinstance(spoken.time, Unsaid):
+        return spoken
+    return replace(spoken, time=deed.time, event=replace(deed, time=Unsaid()))
+
+
 def seen_then(spoken: Listing, g: Grounder) -> Listing:
     """Ask for what is believed as of now of somebody who was not in view when that was done."""
     about = spoken.about

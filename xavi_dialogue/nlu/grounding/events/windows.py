@@ -126,6 +126,7 @@ def pointed(time: Time, found: Window) -> Window:
     """
     anchor = time.anchor if isinstance(time, Relative) else None
     spoken = isinstance(anchor, Event) or isinstance(time, Back)
+    spoken = spoken and isinstance(found.term, Between) and not found.whole
     if not isinstance(time, Relative | Back) or not spoken or not isinstance(found.term, Between):
         return found
     match time.relation:
@@ -179,7 +180,8 @@ def _back(relation: str, g: Grounder) -> Window:
             return Window(context.begin, context.now, Unsaid(), (context.begin, context.now), True)
     if interval is None:
         return unsaid("past", context)
-    return _beside(relation, interval, context)
+    whole = relation == "during" and interval == context.discourse.stretch
+    return replace(_beside(relation, interval, context), whole=whole)
 
 
 def notable(context: Context) -> Interval | None:
