@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.risked import risked
+from xavi_dialogue.dialogue.risked import beneath, foretold, risked
 from xavi_dialogue.dialogue.state.assertions import event_of
 from xavi_dialogue.dialogue.state.memory import is_about_drive
 from xavi_dialogue.dialogue.state.turn import Turn
@@ -114,7 +114,7 @@ def _recast(act: Act, last: Turn | None) -> Act:
         return act if isinstance(found, str) else found
     match act:
         case Ask(question=HowKnow(of=None | That())):
-            event = _blamed(result)
+            event = _blamed(result) or foretold(result)
             of = risked(result, None if result is None else _asked(result, last))
             of = of if event is None else Happens(event)
             return act if of is None else Ask(HowKnow(of))
@@ -208,7 +208,7 @@ def deeper(last: Turn) -> Deeper:
             return MORE
         case CannotSay() | NotApplicable() | TooLittle():
             return "bottom"
-    return "leave"
+    return beneath(result, None if result is None else _asked(result, last)) or "leave"
 
 
 #: Actions that say least about what somebody is doing.
@@ -290,7 +290,7 @@ def _doubted(result: Answer | Refusal | None) -> Event | None:
             return _blamed(result)
         case PlanAhead(steps=steps) if steps:
             return Event(steps[0][0], tense="future", modal="will")
-    return None
+    return foretold(result)
 
 
 def _of_contrast(contrast: Contrast) -> Event | None:

@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Nobody,
     Not,
     Now,
     Proposition,
@@ -88,8 +89,16 @@ def asserted(context: Context) -> Proposition | None:
     discourse = context.discourse
     for proposition in discourse.propositions:
         if not isinstance(proposition, That):
-            return proposition
-    return questioned(context)
+            return _with_anybody(proposition)
+    return _with_anybody(questioned(context))
+
+
+def _with_anybody(known: Proposition | None) -> Proposition | None:
+    """Leave out that we would hit "nobody" where it was asked if we will hit anybody."""
+    match known:
+        case Happens(event=Event(action="collide", object=Nobody()) as event):
+            return Happens(replace(event, object=None))
+    return known
 
 
 def of_others(context: Context) -> Proposition | None:
