@@ -17,6 +17,9 @@ from xavi_dialogue.nlu.parse import Parser
         ("that slowing down, was it the bus", "slow-down", "Described(bus)"),
         ("And this braking, the lorry again?", "brake", "Described(truck)"),
         ("So this stop, the bus?", "stop", "Described(bus)"),
+        ("this wait, the pedestrians?", "wait", "Described(pedestrian, plural=True)"),
+        ("that sudden stop, the cyclist?", "stop", "Described(bicycle)"),
+        ("this pause, the lorry?", "stop", "Described(truck)"),
         ("We are stopping. The bus?", "stop", "Described(bus)"),
     ],
 )

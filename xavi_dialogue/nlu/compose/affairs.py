@@ -34,7 +34,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
-from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
 from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
 from xavi_dialogue.nlu.compose.worded import WHEN_WE_GO, lane_fits, worded
@@ -56,7 +55,7 @@ _THINGS: Final = (
 
 def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
-    acts = tuple(of_own_deed(of_one_alone(act, words), words) for act in acts)
+    acts = tuple(of_one_alone(act, words) for act in acts)
     acts = tuple(map(_when_told, of_sounds(acts, words)))
     if (rating := rating_of(acts, words)) is not None:
         return rating

@@ -53,6 +53,7 @@ from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sounds import heard
 from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
+from xavi_dialogue.nlu.compose.verbs.pointed import pointed
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 from xavi_dialogue.nlu.compose.wishes import wished
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -91,6 +92,8 @@ class Statements:
             return [((felt,), 0.0)] if felt is not None else []
         if (peak := extreme_told(clause)) is not None:
             return [((Ask(peak),), 0.0)]
+        if (deed := pointed(clause, self.propositions.plain)) is not None:
+            return [((deed,), 0.0)]
         order = self.orders.stated(clause)
         if order is not None:
             return [(order, 0.0)]
