@@ -49,6 +49,9 @@ from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.propositions.severally import apart, asked_each, of_rival
 from xavi_dialogue.nlu.compose.propositions.tally import among
 from xavi_dialogue.nlu.compose.questions import Questions
+from xavi_dialogue.nlu.compose.refining.asked import sought
+from xavi_dialogue.nlu.compose.refining.told import lit_now, only_one, refined_whether
+from xavi_dialogue.nlu.compose.refining.waits import waits_compared
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
 from xavi_dialogue.nlu.compose.states.existence import if_alone
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
@@ -158,6 +161,8 @@ class Composer(Statements):
         if (held := leaf_of(unit, "THINKQ")) is not None:
             found = [(of_belief(question, wh.kind, held.key), cost) for question, cost in found]
         named = next((sem for sem, _ in clause.objects), clause.subject)
+        if waits := waits_compared(clause, [question for question, _ in found]):
+            return [(tuple(Ask(question) for question in waits), found[0][1])]
         each = asked_each(named, clause, clause.tense) if wh.kind == "what" else ()
         if each and clause.verb is None:
             return [(tuple(Ask(question) for question in each), 0.0)]
@@ -182,6 +187,8 @@ class Composer(Statements):
 
     def _polar(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
+        if (lit := lit_now(clause)) is not None:
+            return [(lit, 0.0)]
         liked = clause.verb is not None and clause.verb.key in ("like", "love", "enjoy", "hate")
         liked = liked or "do you like" in words_of(unit)
         if clause.feelings and clause.that is not None and isinstance(clause.subject, Ego):
@@ -204,12 +211,12 @@ class Composer(Statements):
         if (why := blamed_for(clause)) is not None:
             return [((Ask(why),), 0.0)]
         special = extreme_told(clause) or as_expected(unit, clause)
-        special = special or if_alone(words_of(unit), clause)
+        special = special or if_alone(words_of(unit), clause) or only_one(clause)
         if special is not None:
             return [((Ask(special),), 0.0)]
         if supposes(unit, clause) and (supposed := self.questions.supposed(clause)) is not None:
             return [((Ask(WhatIf(supposed)),), 0.0)]
-        found = self.questions.whether(clause)
+        found = [(refined_whether(clause, q), cost) for q, cost in self.questions.whether(clause)]
         if not found and unit.name == "polar_short":
             return self.fragments.short(clause)
         return [(apart(disputed(q, words_of(unit))), cost) for q, cost in found]
@@ -279,7 +286,8 @@ class Composer(Statements):
         if any(isinstance(p, Node) and p.name == "tag" for tail in tails for p in tail.parts):
             return []  # not "how close" with the tag "was it?", but one question
         extra = RUN_ON * runs_on(unit)
-        return [(acts, cost + extra) for acts, cost in self.fragments.bare_question(unit)]
+        found = self.fragments.bare_question(unit)
+        return [(tuple(map(sought, acts)), cost + extra) for acts, cost in found]
 
     def _about(self, unit: Node) -> Found:
         return self.fragments.about(unit)

@@ -34,9 +34,9 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.refining.asked import WHEN_WE_GO
 from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
-from xavi_dialogue.nlu.compose.worded import WHEN_WE_GO, lane_fits, worded
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
@@ -59,12 +59,8 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     acts = tuple(map(_when_told, of_sounds(acts, words)))
     if (rating := rating_of(acts, words)) is not None:
         return rating
-    if (fitting := lane_fits(acts, words)) is not None:
-        return fitting
     if len(acts) != 1 or not isinstance(acts[0], Ask):
         return acts
-    if (found := worded(acts[0].question, words)) is not None:
-        return found
     match acts[0].question:
         case HowDecide(
             Related("can-see", thing) | Happens(Event("go", thing, tense="present"))
@@ -123,7 +119,7 @@ def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...
         case (Request(Event("go", Ego(), time=Relative(anchor=Event("turn-colour"))), False),) if (
             "we" in words and "please" not in words
         ):
-            return (WHEN_WE_GO,)  # "can we go when it turns green?"
+            return (Ask(WHEN_WE_GO),)  # "can we go when it turns green?"
         case (Request(event, False),) if "we" in words and _before_others(event):
             able = Happens(replace(event, modal="can"))
             return (Ask(Whether(able)),)  # "could we squeeze through before they cross?"

@@ -36,6 +36,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_lane, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
+from xavi_dialogue.nlu.compose.refining.setting_off import set_off_late
 from xavi_dialogue.nlu.compose.suppositions import Suppositions
 from xavi_dialogue.nlu.compose.wh_questions.wh import NEXT, Wh, is_that
 from xavi_dialogue.nlu.compose.wh_questions.whys import pace_asked, sided
@@ -102,7 +103,7 @@ class BareQuestions(Suppositions):
     def _bare_why(self, clause: Clause, parts: list[Part]) -> Found:
         pace = pace_asked(self.composer, clause)
         if pace is not None:
-            return pace
+            return [(tuple(self._set_off(act, clause) for act in acts), c) for acts, c in pace]
         told = None if clause.that is None else self.composer.propositions.plain(clause.that)
         if told is not None:
             return [((Ask(Why(told)),), _BARE)]  # "now you tuck in behind him, what for?"
@@ -135,10 +136,17 @@ class BareQuestions(Suppositions):
             event = sided(clause.side)
         if event is not None:
             happens: Proposition = Happens(event)
-            return [((Ask(self.composer.questions.framed(
-                Why(Not(happens) if negated else happens), clause, None)),), 0.05)]  # fmt: skip
+            why = self.composer.questions.framed(
+                Why(Not(happens) if negated else happens), clause, None)  # fmt: skip
+            return [((self._set_off(Ask(why), clause.bare or clause),), 0.05)]
         form = "why-not" if negated else "why"
         return [((Elliptic(thing, None, clause.time, negated, form),), 0.05)]
+
+    def _set_off(self, act: Act, clause: Clause) -> Act:
+        """Read "why so slow off the line?" as why we did not go at once."""
+        propose = self.composer.propositions.plain
+        late = set_off_late(clause, act.question, propose) if isinstance(act, Ask) else None
+        return act if late is None else Ask(late)
 
     def _bare_grade(self, wh: Wh, clause: Clause) -> Found:
         if clause.subject is None:

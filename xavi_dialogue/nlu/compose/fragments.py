@@ -48,12 +48,12 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.propositions.severally import asked_each, towards
+from xavi_dialogue.nlu.compose.refining.turns import TURNS, turns_to_come
 from xavi_dialogue.nlu.compose.states.states import state_of
 from xavi_dialogue.nlu.compose.suppositions import suppose
 from xavi_dialogue.nlu.compose.talk import bodily
 from xavi_dialogue.nlu.compose.wh_questions.whys import reason_for, sided
 from xavi_dialogue.nlu.compose.wishes import bare_wish
-from xavi_dialogue.nlu.compose.worded import turns_to_come
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -221,8 +221,8 @@ class Fragments(BareQuestions):
         no = any(isinstance(p, Leaf) and p.category == "NO" for p in unit.parts)
         if no and thing is not None:
             return [((Repair("meant", thing),), 0.0)]
-        if event is not None and event.action in _TURNING and "more" in words_of(unit).split():
-            return [((turns_to_come(words_of(unit)),), 0.0)]  # "any more turns?"
+        if event is not None and event.action in TURNS and _is_more(unit):
+            return [((Ask(turns_to_come(event.action)),), 0.0)]  # "any more turns?"
         if event is not None and _is_deed(unit):
             return [((Elliptic(thing, event, clause.time, negated),), 0.1),
                     ((Request(event),), 0.4)]  # fmt: skip
@@ -254,6 +254,10 @@ def _unused(clause: Clause) -> float:
     """Say what costs that stands in a fragment beside the thing that it names."""
     that = 0.5 if clause.that is not None else 0.0
     return that + 0.9 * max(0, len(clause.objects) - 1) + 0.4 * len(clause.adjectives)
+
+
+def _is_more(unit: Node) -> bool:
+    return any(leaf.category == "DET" and leaf.key == "many" for leaf in leaves_of(unit))
 
 
 def _there_yet(clause: Clause) -> bool:

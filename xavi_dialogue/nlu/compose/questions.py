@@ -32,6 +32,8 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
+from xavi_dialogue.nlu.compose.refining.asked import refined
+from xavi_dialogue.nlu.compose.refining.told import refined_whether
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
@@ -144,7 +146,7 @@ class Questions(Options):
         inner = [p for p in node.parts if isinstance(p, Node) and p not in (*whs, also)]
         if not whs:
             clause = self.phrases.clause(inner[0]) if inner else Clause()
-            return None, [q for q, _ in self.whether(clause)]
+            return None, [refined_whether(clause, q) for q, _ in self.whether(clause)]
         wh = self.wh_of(whs[0])
         if not inner:
             return wh, []
@@ -165,7 +167,8 @@ class Questions(Options):
         by_whom(clause)
         if (held := behind_what(clause)) is not None:
             return [(self.asking.ask(wh, *held), WHOLE)]
-        return self.of(wh, clause)
+        plain = self.propositions.plain
+        return [(refined(wh, clause, q, plain), cost) for q, cost in self.of(wh, clause)]
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""

@@ -50,6 +50,7 @@ from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.propositions.tally import counts, tallied
 from xavi_dialogue.nlu.compose.questions import Questions
+from xavi_dialogue.nlu.compose.refining.told import refined_whether
 from xavi_dialogue.nlu.compose.sounds import heard
 from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
@@ -174,7 +175,7 @@ class Statements:
                 return (Ask(expected),)
         anybody = unit_words.startswith("any") and clause.modal is None  # "anyone else coming"
         if tagged or self.asks or anybody:
-            question = self.questions.polar(clause, value, tag=True)
+            question = refined_whether(clause, self.questions.polar(clause, value, tag=True))
             match question:
                 case Whether(that=Is(state="stationary") as still) if "not moving" in unit_words:
                     question = Whether(Not(replace(still, state="moving")), True)

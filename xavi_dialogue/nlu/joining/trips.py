@@ -21,7 +21,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.wh_questions.towards import WAYS
-from xavi_dialogue.nlu.compose.worded import lane_fits
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.joining.meanwhile import LEADING, Row
 
@@ -37,8 +36,6 @@ def of_the_way(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
     """Let questions in one sentence be of the way that is left, where one of them is."""
     found = [_twice(unit, row) for unit, row in zip(units, rows, strict=True)]
     acts = [act for row in found for act in row or ()]
-    if Ask(Whither()) in acts and (fitting := lane_fits(tuple(acts), _words(units))) is not None:
-        return [fitting, *found[1:]]
     if len(acts) > 1 and (turn := next(filter(None, map(_turn, acts)), None)) is not None:
         return [row and tuple(_to_turn(act, turn) for act in row) for row in found]
     if any(isinstance(act, Ask) and act.question == Whither() for act in acts):
@@ -47,10 +44,6 @@ def of_the_way(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
     far = far or (len(acts) > 1 and any(map(_takes, acts)) and any(map(_is_far, acts)))
     timed = timed or (far and any(map(_takes, acts)))
     return [None if row is None else tuple(_left(act, timed, far) for act in row) for row in found]
-
-
-def _words(units: Sequence[Node]) -> str:
-    return " ".join(word for unit in units for leaf in leaves_of(unit) for word in leaf.words)
 
 
 def _left(act: Act, timed: bool, far: bool) -> Act:

@@ -61,6 +61,8 @@ _PLACES: dict[str, Thing] = {
     "destination": Destination(),
     "own-lane": Lane("own"),
     "other-lane": Lane("other"),
+    "wrong-lane": Lane("other"),
+    "fitting-lane": Lane("own"),
     "left-lane": Lane("leftmost"),
     "right-lane": Lane("rightmost"),
     "left-lane-typed": Lane("left"),
@@ -212,12 +214,8 @@ def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lan
     if which is None and (traits.other or traits.following):
         which = "other"
     if which is None:
-        indefinite = head.form == "plural" or traits.determiner in (
-            "indef",
-            "that",
-            "every",
-            "many",
-        )
+        any_of = ("indef", "that", "every", "many")
+        indefinite = head.form == "plural" or traits.determiner in any_of
         which = "any" if indefinite and not traits.owner else "own"
     return Lane(cast(Any, which), of)
 
