@@ -43,3 +43,17 @@ def test_how_likely_it_is_to_hit_anybody() -> None:
 def test_a_risk_is_of_the_deed_of_another_that_was_asked_about(text: str) -> None:
     act = asked("motorway-0", 20.0, "did the black car overtake us?", text)
     assert "event=Event(overtake, Vehicle(" in act
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "when did you become certain?",
+        "since when were you sure about that?",
+        "and when did you become sure of it?",
+        "how long have you been certain?",
+    ],
+)
+def test_since_when_it_was_sure_is_told_by_the_evidence(text: str) -> None:
+    act = asked("s1-0", 6.0, "why did you change lanes?", text)
+    assert act.startswith("Ask(HowKnow(")

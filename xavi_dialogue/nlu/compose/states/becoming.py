@@ -10,7 +10,7 @@ from xavi_dialogue.nlu.compose.verbs.trends import trend
 
 _BECOMING = {"slow": "slow-down", "fast": "speed-up", "close": "approach"}
 _STATES = frozenset({"stuck", "late", "busy", "free", "far", "dangerous", "visible", "hidden",
-                     "lost"})  # fmt: skip
+                     "lost", "sure"})  # fmt: skip
 
 
 def become(special: Special, event: Callable[..., Event]) -> Proposition:

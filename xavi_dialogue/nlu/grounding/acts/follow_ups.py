@@ -8,12 +8,15 @@ from xavi_dialogue.domain.discourse import Discourse, Span
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowDecide,
+    HowKnow,
+    HowLong,
     HowMuch,
     HowSure,
     Listing,
     Question,
     WhatIf,
     WhatWouldChange,
+    When,
     Whether,
     Which,
     Why,
@@ -106,6 +109,8 @@ def followed(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, that=replace(near, thing=Pronoun("it")))
         case HowMuch(of=Measured(attribute="delay", event=Event(action="do")) as of):
             return _saved(of, g)
+        case When(of=Is(state="sure", thing=Ego())) | HowLong(of=Is(state="sure", thing=Ego())):
+            return HowKnow()  # the evidence tells since when it has been held to be likely
         case HowSure(of=Happens(event=Event(action="do", actor=Ego(), modal=None) as done)):
             done = replace(done, object=None)  # "that decision", "the decision at 40 s"
             timed = isinstance(spoken.time, At | AtDecision)
