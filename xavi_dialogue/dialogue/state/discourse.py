@@ -12,42 +12,30 @@ from typing import TypeAlias, get_args
 from msgspec.structs import replace
 
 from xavi_dialogue.dialogue.state.assertions import asserted
-from xavi_dialogue.dialogue.state.turn import Part, Turn, kept
+from xavi_dialogue.dialogue.state.focus import episode_of, stretch_named
+from xavi_dialogue.dialogue.state.turn import Turn, kept
 from xavi_dialogue.domain.answers import (
     Answer,
-    Beliefs,
-    Bound,
     Cause,
-    ChoiceReason,
     Contrast,
     Declined,
-    Happenings,
     Identified,
-    Method,
     MotionCause,
-    MotionReason,
     NotApplicable,
     Options,
-    OtherReason,
-    Priority,
     Refusal,
-    SupposedOfUs,
 )
-from xavi_dialogue.domain.discourse import Discourse, Mention, Span
+from xavi_dialogue.domain.discourse import Discourse, Mention
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import (
+    Act,
     Ask,
-    Changed,
     Claim,
     Compare,
-    Doing,
     Feel,
-    HowMuch,
-    Listing,
-    Peak,
+    Identify,
     Question,
     Request,
-    Summarise,
     WhatIf,
     Whether,
     Why,
@@ -55,12 +43,10 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     At,
-    Between,
     Ego,
     Event,
     Happens,
     Is,
-    Measured,
     Not,
     Now,
     Proposition,
@@ -73,7 +59,6 @@ from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.domain.vocabulary import MACRO_ACTIONS
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
-SAME = 0.5  # [s] within which a time is now
 REMEMBERED = 20  # turns; later ones no longer refer to what was said before them
 ASSERTED = 6  # maximum of propositions that are kept
 TIMES = 4  # maximum of moments named by the passenger that are kept
@@ -83,7 +68,6 @@ OPTIONAL = frozenset((*MACRO_ACTIONS, "overtake", "change-lane", "turn", "go", "
                       "enter", "leave", "merge", "speed-up", "keep-lane", "wait"))  # fmt: skip
 POSSIBLE = ("can", "could", "should", "might")
 STALE = 15.0  # [s] between two questions after which the earlier one is over
-LONG = 60.0  # [s] longest episode that "that" or "then" may mean
 
 
 def discourse_of(turns: Sequence[Turn]) -> Discourse:
@@ -147,14 +131,24 @@ def _news(turn: Turn) -> _News:
     said = tuple(_said(turn))
     return _News(
         said=said,
-        question=next((q.question for q in reversed(said) if isinstance(q, Ask)), None),
+        question=_under_discussion(turn, said),
         mentions=(*_mentions(turn, 0), *_named(turn, 0)),
         propositions=tuple(asserted(turn))[:ASSERTED],
-        episode=_episode(turn),
-        stretch=_stretch_named(turn),
+        episode=episode_of(turn),
+        stretch=stretch_named(turn),
         weighed=_weighed(turn),
         times=tuple(_times(turn)),
     )
+
+
+def _under_discussion(turn: Turn, said: Sequence[Ask | Claim | Request | Feel]) -> Question | None:
+    """Return the last question of a turn; a mere "who?" leaves the one before under discussion."""
+    aside = [a.act for a in turn.acts if a.leaned and _is_who(a.act)]
+    return next((q.question for q in reversed(said) if isinstance(q, Ask) and q not in aside), None)
+
+
+def _is_who(act: Act) -> bool:
+    return isinstance(act, Ask) and isinstance(act.question, Identify)
 
 
 def _weighed(turn: Turn) -> _Weighed | None:
@@ -274,76 +268,3 @@ def _named(turn: Turn, number: int) -> Iterator[Mention]:
     """Yield the vehicles that the words of the reply name."""
     for vehicle in turn.mentioned:
         yield mention(Vehicle(vehicle), number, "other", by_car=True)
-
-
-def _episode(turn: Turn) -> tuple[float, float] | None:
-    """Return the part of the ride [s] that was discussed last, for "that" and "then"."""
-    now = turn.reply.sim_time
-    if (named := _stretch_named(turn)) is not None:
-        return named
-    for part in reversed(turn.parts):
-        found = _of_deed(part) or _told(part.result, now) or _asked(part)
-        if found is not None and found[1] - found[0] <= LONG:
-            return found
-    return None
-
-
-def _stretch_named(turn: Turn) -> tuple[float, float] | None:
-    """Return the part of the ride [s] of which the last account or list was asked by name."""
-    named = next((span for p in reversed(turn.parts) if (span := _named_part(p))), None)
-    return None if named is None or named.end - named.begin > LONG else (named.begin, named.end)
-
-
-def _named_part(part: Part) -> Span | None:
-    """Return the part of the ride of which an account or a list was asked, if it was named."""
-    asked = None if part.act is None else part.act
-    if asked is None or asked.listed is not None:
-        listed = None if asked is None else asked.listed
-        return None if listed is None or listed.whole or not listed.said else listed
-    match asked.act:
-        case Ask(question=Doing() | Summarise() | Listing() | Peak() | Changed()):
-            span = asked.span
-            long = span is not None and span.said and span.begin < span.end
-            return span if long and span is not None and not (span.whole or span.ahead) else None
-    return None
-
-
-def _of_deed(part: Part) -> tuple[float, float] | None:
-    """Return when a deed was of which a measure was asked: what it cost reaches on until now."""
-    act = None if part.act is None else part.act.act
-    match act:
-        case Ask(question=HowMuch(of=Measured(event=Event(time=Between())))):
-            return _asked(part)
-    return None
-
-
-def _told(result: Answer | Refusal, now: float) -> tuple[float, float] | None:
-    match result:
-        case ChoiceReason(deed=Episode() as deed) | MotionReason(deed=deed):
-            return _stretch(deed, now)
-        case OtherReason(deed=Episode() as deed) | Bound(went=Episode() as deed):
-            return _stretch(deed, now)
-        case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
-            return contrast.decided, contrast.decided
-        case Method(decided=float() as decided):
-            return decided, decided
-        case Happenings(form="list" | "summary") | Identified(such=None):
-            return None  # who somebody is tells what he does, but not as the topic
-        case Priority(first=Ego(), time=time) if time > now - SAME:
-            return None  # who went first is of a deed, and told while it goes on
-        case Priority(time=time) | Beliefs(time=float() as time):
-            return time, time
-    deeds = tuple(parts(result, Episode))
-    if deeds:
-        return _stretch(deeds[-1], now)
-    measures = [m for m in parts(result, Measure) if m.gap is None and m.time < now]
-    return (measures[0].time, measures[0].until or measures[0].time) if measures else None
-
-
-def _asked(part: Part) -> tuple[float, float] | None:
-    span = None if part.act is None else part.act.span
-    return None if span is None or span.ahead or span.whole else (span.begin, span.end)
-
-
-def _stretch(deed: Episode, now: float) -> tuple[float, float]:
-    return deed.begin, now if deed.end is None else deed.end

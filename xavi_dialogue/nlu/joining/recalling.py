@@ -50,7 +50,20 @@ def recalled(before: Act, later: Act) -> Act | None:
     if found is None and isinstance(before, Claim):
         found = _as_expected(Whether(before.that, tag=True), question)
         found = found or _changed(before.that, question)
+    if found is None and isinstance(later, Claim):
+        found = _reasons_of(asked, later.that)
     return None if found is None else Ask(found)
+
+
+def _reasons_of(asked: Question | None, told: Proposition) -> Question | None:
+    """Ask for the reasons of what we are said to have done: "list the reasons you stopped"."""
+    match asked, told:
+        case (
+            Listing(of="reasons", about=None, event=None),
+            Happens(event=Event(actor=Ego(), tense="past" | "perfect") as deed),
+        ):
+            return structs.replace(asked, event=deed)
+    return None
 
 
 def of_deeds(before: Act, act: Act) -> Act:

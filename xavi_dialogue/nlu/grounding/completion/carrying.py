@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Happens,
     Measured,
+    Nobody,
     Not,
     Proposition,
     Unsaid,
@@ -42,6 +43,10 @@ def carried(spoken: WhatIf, g: Grounder) -> WhatIf:
     if spoken.then is not None:
         return spoken
     asked, gone = g.context.discourse.question, _absent(spoken.supposed)
+    if isinstance(spoken.supposed, Exists) and isinstance(spoken.supposed.thing, Nobody):
+        then = _asked_of(asked)
+        g.notes.leaned = g.notes.leaned or then is not None
+        return replace(spoken, then=then)
     if gone is not None:
         then, time = _asked_of(asked), _time_of(asked, g)
         if time is not None and isinstance(gone.time, Unsaid) and gone.tense == "present":

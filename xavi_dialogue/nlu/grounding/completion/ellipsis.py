@@ -33,6 +33,7 @@ from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
     Back,
+    Between,
     Described,
     Ego,
     Event,
@@ -53,6 +54,7 @@ from xavi_dialogue.nlu.grounding.completion.asking import FOR_WHOM, asked
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
+    interval,
     main_event,
     of_others,
     proposition_of,
@@ -163,6 +165,8 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if question is None:
         return _frameless(spoken, g)
     new: Question = question
+    if (earlier := _time_before(spoken, question, g)) is not None:
+        return Ask(earlier)
     spoken = on_a_side(spoken, question, g)
     if spoken.event is not None and first(question, Event) is None and spoken.thing is None:
         return _frameless(spoken, g)
@@ -179,6 +183,19 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if spoken.negated:
         new = _negated(new)
     return Ask(new)
+
+
+def _time_before(spoken: Elliptic, question: Question, g: Grounder) -> Question | None:
+    """Ask the same of the time before that we did so: "and the one before?"."""
+    event, thing = main_event(question), spoken.thing
+    when = None if event is None else interval(event)
+    if event is None or when is None or event.actor != Ego() or spoken.time != Back("before"):
+        return None
+    if not isinstance(thing, Described) or thing != Described(definite=thing.definite):
+        return None
+    earlier = Between(g.context.begin, max(when[0] - 0.1, g.context.begin))
+    found: Question = with_event(with_time(question, Unsaid()), replace(event, time=earlier))
+    return found
 
 
 def _somebody_else(question: Question | None) -> Question:
