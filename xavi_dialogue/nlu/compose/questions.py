@@ -173,11 +173,12 @@ class Questions(Options):
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
         wh, clause = cleft(wh, clause)
-        if wh.kind in ("where", "grade"):
+        does = wh.kind == "what" and clause.verb is not None and clause.verb.key == "do"
+        if does or wh.kind in ("where", "grade", "who"):
             place_subject(clause)
         if (most := pointed(wh, clause)) is not None:
             return [(most, 0.0)]
-        if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
+        if does:
             # "what is he doing, braking like that?"
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)

@@ -9,6 +9,8 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Has,
+    Is,
     Lane,
     Not,
     Passenger,
@@ -37,6 +39,13 @@ _RELATIONS = {
     "there": "near",
     "far": "near",
 }
+
+
+#: Verbs that say no more than that somebody is there, or on the move.
+_MOVING = frozenset(("go", "drive", "do", "move", "travel", "ride", "come", "stand", "wait", "sit"))
+
+#: Deeds that lead nowhere, so that a place beside them is where their actor is.
+_STAYING = frozenset(("stand", "wait", "move", "brake", "slow-down", "speed-up", "signal"))
 
 
 class Followers:
@@ -90,6 +99,7 @@ class Followers:
             found = self.clauses.noun_clause(part)  # "the reason you stopped"
         else:
             found = self.clauses.relative_proposition(part)
+            self._place(part, found, traits)
         traits.clause = found
         match found:
             case Happens(event=event):
@@ -107,6 +117,19 @@ class Followers:
                 pass
             case _:
                 traits.fields["such"] = found
+
+    def _place(self, part: Part, found: Any, traits: Traits) -> None:
+        """Note a place that a clause names and its meaning leaves out: "racing on the right"."""
+        match found:
+            case Happens(event=Event(action=action, where=None)) if action in _STAYING:
+                pass
+            case Is() | Has():
+                pass
+            case _:
+                return
+        there = [key for key, _ in self.clauses.relative_clause(part).bearings if key != "there"]
+        if there:
+            traits.fields.setdefault("bearing", there[0])
 
     def _most(self, part: Node) -> str | None:
         """Return by what somebody stands out of whom a relative clause says no more than that."""
@@ -140,23 +163,32 @@ def relation_of(bearing: str) -> str:
 
 
 def place_subject(clause: Clause) -> None:
-    """Make "behind us" in "how fast is the car behind us" a part of the subject."""
+    """Make "behind us" a part of the subject: "how fast is the car behind us", "driving ..."."""
     subject = clause.subject
-    if not isinstance(subject, Described) or subject.bearing is not None:
+    if not isinstance(subject, Described) or subject.bearing is not None or clause.objects:
         return
-    if clause.verb is not None or clause.objects or not clause.has("be"):
+    if not clause.has("be") if clause.verb is None else clause.verb.key not in _MOVING:
         return
+    if (placed := _there(subject, clause)) is not None:
+        clause.subject, clause.the_car = placed, False
+
+
+def _there(subject: Described, clause: Clause) -> Described | None:
+    """Return a road user with a place that its clause names, which is taken from the clause."""
+    if clause.origin is not None and subject.origin is None:
+        origin, clause.origin = clause.origin, None
+        return structs.replace(subject, origin=cast(Any, origin))
     for one in clause.complements:
         bearing = one.key.removeprefix("bearing-")
-        if isinstance(one.sem, Ego | Passenger) and bearing != one.key:
-            clause.subject = structs.replace(subject, bearing=cast(Any, bearing))
+        there = one.key in ("in", "on") and isinstance(one.sem, Lane) and subject.such is None
+        seen = isinstance(one.sem, Ego | Passenger) and bearing != one.key
+        if there or seen:
             clause.complements = [c for c in clause.complements if c is not one]
-            return
-        if one.key in ("in", "on") and isinstance(one.sem, Lane) and subject.such is None:
-            there = Related("on", Wanted(), one.sem)  # "how fast is the car in the middle lane"
-            clause.subject = structs.replace(subject, such=there)
-            clause.complements = [c for c in clause.complements if c is not one]
-            return
-    if clause.bearings and clause.bearings[0][0] != "there":
-        clause.subject = structs.replace(subject, bearing=cast(Any, clause.bearings[0][0]))
-        del clause.bearings[0]
+            if seen:
+                return structs.replace(subject, bearing=cast(Any, bearing))
+            on = Related("on", Wanted(), cast(Lane, one.sem))  # "the car in the middle lane"
+            return structs.replace(subject, such=on)
+    if not clause.bearings or clause.bearings[0][0] == "there":
+        return None
+    bearing, _ = clause.bearings.pop(0)
+    return structs.replace(subject, bearing=cast(Any, bearing))

@@ -152,7 +152,8 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             match thing:
                 case Described(kind="vehicle", such=Is("wrong", Wanted())):
                     return Listing("wrong-predictions", time=time)  # "one thing you got wrong"
-            if getattr(thing, "plural", False) and not getattr(thing, "number", None):
+            placed = getattr(thing, "bearing", None) is not None
+            if getattr(thing, "plural", False) and not (getattr(thing, "number", None) or placed):
                 return Listing("vehicles", thing, time)
             return Identify(thing) if thing is not None else None
 

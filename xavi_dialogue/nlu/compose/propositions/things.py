@@ -262,6 +262,9 @@ class Nouns(Followers):
                 traits.unknown.append(words_of(part))
             case "moving":
                 traits.fields["doing"] = self.clauses.relative(part, Wanted())
+            case "compared":  # "the slower of the two"
+                leaf = cast(Leaf, part.parts[0])
+                traits.extreme = _MOST.get(leaf.key, traits.extreme)
             case "of_all":
                 for leaf in leaves_of(part):
                     self.modify(leaf, traits)
@@ -286,6 +289,11 @@ class Nouns(Followers):
         if isinstance(last, Node):
             return Vehicle(int(number_of(last)))
         return noun(last, traits)
+
+
+#: Which of two a comparative names.
+_MOST = {"fast": "fastest", "slow": "slowest", "close": "nearest", "far": "farthest",
+         "big": "biggest", "small": "smallest"}  # fmt: skip
 
 
 def _at_place(where: Sem, core: Node, traits: Traits) -> Sem:

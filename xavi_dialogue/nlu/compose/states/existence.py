@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
     Vehicle,
+    Wanted,
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import placed_on, with_fields
@@ -54,6 +55,9 @@ def existing(clause: Clause) -> list[Found]:
     if isinstance(sem, Event) and sem.actor == Ego() and tense_of(clause) in _DONE:
         tense = tense_of(clause)
         return [(Happens(with_fields(sem, tense=tense, time=clause.time)), 0.0)]
+    if isinstance(sem, Event) and isinstance(sem.actor, Described):
+        doing = with_fields(sem, actor=Wanted(), tense=tense_of(clause))
+        thing = with_fields(sem.actor, doing=doing)  # "there is a red car braking"
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
         if sem.key == "danger":

@@ -2,13 +2,15 @@
 
 from typing import Final, cast, get_args
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.meaning import Compare, Peak, Question, Why
-from xavi_dialogue.domain.terms import Described, Pronoun, That, Thing
+from xavi_dialogue.domain.terms import Described, Event, Pronoun, That, Thing, Wanted
 from xavi_dialogue.domain.vocabulary import Bearing, Merit, PeakKind
 from xavi_dialogue.nlu.compose.alternatives.nearness import is_choice, rivals
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.peaks import deed_asked, nearest_of, peak_of
-from xavi_dialogue.nlu.compose.clauses.sem import Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
 
 _NEAR = frozenset({"around", "here", "there"})
@@ -52,3 +54,16 @@ def who_there(clause: Clause) -> Described | None:
             where = cast(Bearing, key)
             return Described(bearing=where, of=of, plural=True, definite=False)
     return None
+
+
+def as_said(subject: Sem, clause: Clause) -> Sem:
+    """Add to a road user that is asked about what its clause says of it: "standing on the left"."""
+    if not isinstance(subject, Described) or subject not in [sem for sem, _ in clause.objects]:
+        return subject
+    stands = any(key == "stationary" for key, _ in clause.adjectives)
+    if stands and subject.doing is None:
+        subject = replace(subject, doing=Event("stand", Wanted(), tense="present"))
+    there = next((key for key, _ in clause.bearings if key in get_args(Bearing)), None)
+    if there is None or subject.bearing is not None:
+        return subject
+    return replace(subject, bearing=cast(Bearing, there))

@@ -162,6 +162,8 @@ def deed_of(event: Event) -> Sem | None:
 def pointed_at(clause: Clause) -> Thing:
     """Return what "who is that?" and "who is closest now?" ask for."""
     most = extreme_of(clause)
+    if most is None and clause.origin is not None:
+        return Described(origin=cast(Any, clause.origin))  # "who is coming from the left?"
     if most is None:
         return Pronoun("that")
     return Described(extreme=cast(Any, most), definite=True)

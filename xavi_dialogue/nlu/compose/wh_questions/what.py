@@ -65,7 +65,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
 )
 from xavi_dialogue.nlu.compose.wh_questions import doings
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
-from xavi_dialogue.nlu.compose.wh_questions.pointing import who_there
+from xavi_dialogue.nlu.compose.wh_questions.pointing import as_said, who_there
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then, pointed_at
 
@@ -105,6 +105,7 @@ class What:
             return Doing(Ego(), Next(), "future")
         if isinstance(subject, Wanted) or subject is None:
             subject = clause.objects[0][0] if clause.objects else pointed_at(clause)
+        subject = as_said(subject, clause)
         for phrase in clause.complements:
             if phrase.sem is not None:
                 subject = adopted(subject, phrase) or subject
