@@ -87,6 +87,7 @@ CASES: tuple[Answer, ...] = (
     PeakMoment("slowing", 9.0, (YIELD,), near("speed-change", 10.0)),
     PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0), (BLUE,)),
     PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0)),
+    PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0), lit=True),
     PeakMoment("delay", 9.0, (), lost(8.0, None), (BLUE,)),
     PeakMoment("waiting", 9.0, (YIELD,), near("duration", 3.0)),
     PeakMoment("waiting", 9.0, (YIELD,), near("duration", 0.5)),

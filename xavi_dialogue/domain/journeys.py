@@ -57,6 +57,7 @@ class PeakMoment(Value, frozen=True):
     others: tuple[Look, ...] = ()  # vehicles that caused it
     among: bool = False  # of the deeds asked about alone, not of the whole ride
     kind: Event | None = None  # `meaning.Peak.deed`
+    lit: bool = False  # a traffic light caused it, too
 
 
 class Decided(Value, frozen=True):

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import Answer, Happenings, PeakMoment
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.meaning import HowMany, Peak
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName, Extreme
 from xavi_dialogue.explain.answers.measuring.closeness import (
     closest_approach,
@@ -182,11 +182,12 @@ def _losing(of: str, asked: Asked, about: Window) -> PeakMoment:
     if not told:
         return PeakMoment(of)
     cost, deed = max(told, key=lambda one: (one[0].value or 0.0, -one[1].begin))
-    held = held_up(asked, Window(deed.begin, cost.until or asked.now))
+    held = held_up(asked, Window(deed.begin, cost.until or asked.now), lights=True)
     named = dict.fromkeys(number(e.object) for e in held.episodes)
     seen = (first_look(asked, v, deed.begin) for v in named if v is not None)
+    lit = any(isinstance(e.object, Feature) and e.object.kind == "light" for e in held.episodes)
     return PeakMoment(of, deed.begin, (for_whom(asked, deed),), cost,
-                  tuple(look for look in seen if look is not None))  # fmt: skip
+                  tuple(look for look in seen if look is not None), lit=lit)  # fmt: skip
 
 
 def _waiting(of: str, asked: Asked, about: Window) -> PeakMoment:

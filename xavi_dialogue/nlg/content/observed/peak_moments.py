@@ -52,6 +52,7 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
         "until": None if measure is None or measure.until is None else Moment(measure.until),
         "going_on": measure is not None and measure.at_least,
         "held": others or None,
+        "lit": answer.lit,
         "kind": None if answer.kind is None else TURNS[answer.kind.action],
         "long": measure is not None and measure.attribute == "duration" and (value or 0.0) >= LONG,
     }
