@@ -206,7 +206,7 @@ class Composer(Statements):
         )
         if order is not None:
             return [(why_not(order, unit, clause), 0.0)]
-        if goes_on(unit) or supposing(unit):
+        if goes_on(unit) or supposing(unit) or (clause.there and len(clause.objects) > 1):
             return []
         if (why := blamed_for(clause)) is not None:
             return [((Ask(why),), 0.0)]

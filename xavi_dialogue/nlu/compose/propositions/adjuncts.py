@@ -170,6 +170,13 @@ class Adjuncts:
         clause.that.time = Rank(rank_of(leaf_of(node, "ORD")))
         clause.subject = Pronoun("it")
 
+    def _on_ever_was(self, node: Node, clause: Clause) -> None:
+        """Read "was there a moment when he braked" as whether he ever did."""
+        self.slots.fill(node.parts[-1:], clause)
+        if isinstance(clause.time, Unsaid):
+            clause.time = WholeRide()
+        clause.focus.add("ever")
+
     def _on_when_np(self, node: Node, clause: Clause) -> None:
         self._on_when(node, clause)
 

@@ -25,6 +25,8 @@ def meant(
         return "go", side, None  # "take that opening"
     if action == "take-exit":
         return "leave", side, thing
+    if action == "stop" and isinstance(match.object, Event):
+        return action, side, as_thing(match.phrases.get("for"))  # "come to a stop for him"
     if action == "let-go" and isinstance(thing, Feature):
         whom = match.phrases.get("for")
         action = "give-way" if whom is None else "let-go"
