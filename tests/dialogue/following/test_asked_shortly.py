@@ -62,3 +62,20 @@ def test_who_then_is_who_it_was_instead() -> None:
     act = asked("junction-0", 22.0, "why did you brake?", "was it the bus?", "who then?")
     assert act.startswith("Ask(Why(Happens(Event(brake")
     assert "suspect" not in act
+
+
+@pytest.mark.parametrize(
+    ("first", "found"),
+    [
+        ("where is the black car going?", "HowKnow(Happens(Event("),
+        ("how long have we been behind the white lorry?", "HowLong(Related(behind"),
+    ],
+)
+def test_since_when_is_of_what_was_told(first: str, found: str) -> None:
+    assert asked("motorway-0", 20.0, first, "since when?").startswith(f"Ask({found}")
+
+
+@pytest.mark.parametrize("text", ["how did they score?", "which of them was best?"])
+def test_options_are_compared_at_the_decision_that_was_told(text: str) -> None:
+    act = asked("motorway-0", 40.0, "what did you consider?", text)
+    assert act.startswith("Ask(Listing(rivals, time=At(39")

@@ -97,6 +97,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         pending=None if offer is None else offer.pending,
         last_acts=new.said or discourse.last_acts,
         asked_at=turn.reply.sim_time if new.said else discourse.asked_at,
+        weighed_at=discourse.weighed_at if new.weighed_at is None else new.weighed_at,
         option=weighed[0],
         decided=weighed[1],
         times=tuple(dict.fromkeys((*new.times, *discourse.times)))[:TIMES],
@@ -123,6 +124,7 @@ class _News:
     episode: tuple[float, float] | None
     stretch: tuple[float, float] | None
     weighed: _Weighed | None  # None: as before
+    weighed_at: float | None  # None: as before
     times: tuple[float, ...]
 
 
@@ -137,6 +139,7 @@ def _news(turn: Turn) -> _News:
         episode=episode_of(turn),
         stretch=stretch_named(turn),
         weighed=_weighed(turn),
+        weighed_at=next((r.decided for r in turn.results if isinstance(r, Options)), None),
         times=tuple(_times(turn)),
     )
 

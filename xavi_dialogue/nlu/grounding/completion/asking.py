@@ -9,6 +9,8 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     Elliptic,
     HowDecide,
+    HowKnow,
+    HowLong,
     HowMuch,
     HowSure,
     Identify,
@@ -85,6 +87,10 @@ def asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
             return place
         case "when" if isinstance(question, HowMuch) and first(question, Event) is None:
             return None if question.extreme is None else Ask(question)  # its answer tells when
+        case "when" if isinstance(question, HowLong):
+            return Ask(question)
+        case "when" if isinstance(question, Whither) and isinstance(question.actor, Vehicle):
+            return Ask(HowKnow())  # the evidence tells since when it is held to be likely
     thing = spoken.thing
     of = questioned(g.context) if spoken.form != "sure" else asserted(g.context)
     if spoken.event is not None:

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    At,
     Between,
     Compares,
     Described,
@@ -63,6 +64,7 @@ def _of_options(spoken: Question, context: Context) -> Question | None:
     asked = context.discourse.question
     if not isinstance(asked, Listing) or asked.of not in ("options", "rivals", "decisions"):
         return None
+    asked = replace(asked, time=_decided(asked.time, context))
     match spoken:
         case HowMuch(of=Measured(attribute=attribute, thing=Pronoun(form=form), event=None)) if (
             attribute in _WEIGHED and form in _VAGUE
@@ -77,6 +79,12 @@ def _of_options(spoken: Question, context: Context) -> Question | None:
         case Identify(thing=Described(kind="vehicle", rank=int(), colour=None, bearing=None)):
             return Listing("rivals", time=asked.time)
     return None
+
+
+def _decided(time: Time, context: Context) -> Time:
+    """Give when that was decided of which the options were told."""
+    told = context.discourse.weighed_at
+    return time if told is None or not isinstance(time, Unsaid | WholeRide) else At(told)
 
 
 def _of_deeds(spoken: Question, context: Context) -> Question | None:
