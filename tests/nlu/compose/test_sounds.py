@@ -16,6 +16,9 @@ DEAF = "I cannot tell you anything about sounds"
         "I heard a horn, was that for us?",
         "someone's beeping their horn",
         "I heard a noise. What was that?",
+        "where is that noise coming from?",
+        "was there a bang just now?",
+        "is there any honking?",
     ],
 )
 def test_the_car_hears_nothing(text: str) -> None:
@@ -31,6 +34,8 @@ def test_the_car_hears_nothing(text: str) -> None:
         "what's that noise behind us?",
         "that car behind us honked at us!",
         "i can hear screeching behind us whats that",
+        "there is a noise to our rear",
+        "somebody beeped at the back of us",
     ],
 )
 def test_who_is_there_is_told(text: str) -> None:
@@ -40,7 +45,18 @@ def test_who_is_there_is_told(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["I hear a siren", "is that a siren?", "there's a siren somewhere", "I can hear sirens"]
+    "text",
+    [
+        "I hear a siren",
+        "is that a siren?",
+        "there's a siren somewhere",
+        "I can hear sirens",
+        "was there a siren just now?",
+        "do you hear the sirens?",
+        "where are the sirens coming from?",
+        "are there sirens behind us?",
+        "I heard an ambulance",
+    ],
 )
 def test_of_sirens_it_is_told_whether_we_see_their_vehicles(text: str) -> None:
     reply = Talk("junction-0", 28.0).say(text).reply.text

@@ -97,8 +97,7 @@ class Composer(Statements):
             found = cast(Found, getattr(self, _RULES[unit.name])(unit))
         else:
             found = self._talk(unit)
-        words = words_of(unit)
-        found = [(of_affairs(acts, words), cost) for acts, cost in found]
+        found = [(of_affairs(acts, unit), cost) for acts, cost in found]
         talk = tuple(a for p in unit.parts if (a := _lead_act(p)) is not None)
         if unit.name == "talk" or not talk:
             return found

@@ -35,7 +35,7 @@ from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.refining.asked import WHEN_WE_GO
-from xavi_dialogue.nlu.compose.sounds import of_sounds
+from xavi_dialogue.nlu.compose.refining.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -53,10 +53,11 @@ _THINGS: Final = (
 )
 
 
-def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
+def of_affairs(acts: tuple[Act, ...], unit: Node) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
+    words = words_of(unit)
     acts = tuple(of_one_alone(act, words) for act in acts)
-    acts = tuple(map(_when_told, of_sounds(acts, words)))
+    acts = tuple(map(_when_told, of_sounds(acts, unit)))
     if (rating := rating_of(acts, words)) is not None:
         return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):

@@ -50,8 +50,8 @@ from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.propositions.tally import counts, tallied
 from xavi_dialogue.nlu.compose.questions import Questions
+from xavi_dialogue.nlu.compose.refining.sounds import heard
 from xavi_dialogue.nlu.compose.refining.told import refined_whether
-from xavi_dialogue.nlu.compose.sounds import heard
 from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
 from xavi_dialogue.nlu.compose.verbs.pointed import pointed

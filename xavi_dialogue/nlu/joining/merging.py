@@ -58,7 +58,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.sounds import of_one_sound
+from xavi_dialogue.nlu.compose.refining.sounds import of_one_sound
 from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed
 from xavi_dialogue.nlu.compose.wh_questions.wh import answer_to
 from xavi_dialogue.nlu.joining.blaming import HELD, asked_with, is_clear

@@ -222,6 +222,8 @@ def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lan
 
 def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     of = traits.of or traits.owner
+    if head.key == "siren":
+        return Measure(Measured("sound", Described(kind="emergency", definite=False)))
     if head.key == "limit" and "number" in traits.fields:
         return described("vehicle", traits)  # "a fifty zone"
     things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]

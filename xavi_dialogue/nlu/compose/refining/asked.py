@@ -45,6 +45,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure
 from xavi_dialogue.nlu.compose.refining.setting_off import Propose, set_off_late
+from xavi_dialogue.nlu.compose.refining.sounds import sound_asked
 from xavi_dialogue.nlu.compose.refining.turns import turns_asked
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh
 
@@ -59,7 +60,12 @@ def refined(wh: Wh, clause: Clause, question: Question, propose: Propose) -> Que
         _superlative(wh, clause, question) or _sought(question) or _counted(wh, clause, question)
     )
     found = found or turns_asked(clause, question) or _unreal(wh, clause, question)
-    found = found or _of_lights(clause, question) or _waited_for(clause, question)
+    found = (
+        found
+        or sound_asked(clause, question)
+        or _of_lights(clause, question)
+        or _waited_for(clause, question)
+    )
     return found or set_off_late(clause, question, propose) or _used(clause, question) or question
 
 

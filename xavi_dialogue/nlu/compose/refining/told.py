@@ -26,6 +26,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.refining.asked import WHEN_WE_GO
+from xavi_dialogue.nlu.compose.refining.sounds import sound_asked
 from xavi_dialogue.nlu.compose.refining.turns import turns_left
 
 _INSIDE: Final = ("in", "into")
@@ -60,7 +61,7 @@ def refined_whether(clause: Clause, question: Question) -> Question:
             if fits is not None and isinstance(asked.that, Not):
                 fits = fits.content if isinstance(fits, Not) else Not(fits)
             return question if fits is None else replace(asked, that=fits)
-    return only_one(clause) or question
+    return only_one(clause) or sound_asked(clause, question) or question
 
 
 def only_one(clause: Clause) -> HowMany | None:
