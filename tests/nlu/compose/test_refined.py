@@ -46,6 +46,10 @@ QUEUE = "Ask(Which(Wanted, Related(on, Wanted, Feature(queue))))"
         ("why were we so slow pulling away?", LATE),
         ("why did it take ages to move off?", LATE),
         ("why did you start so slowly?", LATE),
+        ("which wait was the longest?", "Ask(Peak(waiting))"),
+        ("which braking was the hardest?", "Ask(Peak(braking))"),
+        ("which curve was the sharpest?", "Ask(Peak(tightness, deed=Event(turn)))"),
+        ("which overtake was the fastest?", "Ask(Peak(speed, deed=Event(overtake)))"),
     ],
 )  # fmt: skip
 def test_asks_for_what_its_clause_says(text: str, acts: str) -> None:

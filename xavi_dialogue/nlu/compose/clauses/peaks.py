@@ -60,25 +60,30 @@ def most_of(clause: Clause) -> str:
     return next((quality_of(leaf.key, []) for leaf in said if leaf.category == "SUPER"), "")
 
 
-_PACES = {"slowest": "slowness", "fastest": "speed"}
-_BRAKING = frozenset({"brake", "slow-down"})
-_HALTING = frozenset({"stop", "stand", "wait", "give-way", "let-go"})
-
-
 def standing_out(clause: Clause) -> str | None:
     """Return by what one of several deeds stands out: "the hardest", "the longest"."""
     return "hardest" if "hardest" in clause.focus else extreme_of(clause)
 
 
+_PACES = {"slowest": "slowness", "fastest": "speed"}
+_TURNS = frozenset({"turn", "exit-left", "exit-right"})
+_PACED = _TURNS | {"change-lane", "change-left", "change-right", "overtake", "merge", "pass"}
+_HARD = frozenset({"highest", "difficult", "biggest", "sharpest"})
+_TIGHT = frozenset({"tightest", "sharpest"})
+
+
 def outstanding(deed: Event, said: str | None) -> Peak | None:
-    """Ask which time it was most so: "which turn was the slowest", "which stop the longest"."""
-    if not isinstance(deed.actor, Ego):
+    """Ask which time a deed of ours was most so: the slowest turn, the longest stop."""
+    if not isinstance(deed.actor, Ego) or said is None:
         return None
-    if deed.action in _BRAKING:
-        return Peak("braking", deed.time) if said in ("hardest", "biggest") else None
-    if deed.action in _HALTING:
-        return Peak("waiting", deed.time) if said == "biggest" else None
-    return Peak(cast(Any, _PACES[said]), deed.time, deed=deed) if said in _PACES else None
+    if deed.action in ("brake", "slow-down"):
+        return Peak("braking", deed.time) if said in _HARD or said == "hardest" else None
+    if deed.action in _DEEDS:
+        return Peak("waiting", deed.time) if said in _HARD else None
+    tight = said in _TIGHT and deed.action in _TURNS
+    quality = "tightness" if tight else _PACES.get(said, "")
+    paced = bool(quality) and deed.action in _PACED
+    return Peak(cast(Any, quality), deed.time, deed=deed) if paced else None
 
 
 def _most(sem: Sem) -> bool:
@@ -117,11 +122,7 @@ def done_most(event: Event, relative: Node | None) -> str:
 
 #: What a deed of ours is the most of: "the hardest braking", "the longest stop".
 _DEEDS = {"brake": "slowing", "slow-down": "slowing", "stop": "waiting", "wait": "waiting",
-          "stand": "waiting", "give-way": "waiting"}  # fmt: skip
-_HARD = frozenset({"highest", "difficult", "biggest", "sharpest"})
-_TIGHT = frozenset({"tightest", "sharpest"})
-_TURNS = frozenset({"turn", "exit-left", "exit-right"})
-_PACED = _TURNS | {"change-lane", "change-left", "change-right", "overtake", "merge", "pass"}
+          "stand": "waiting", "give-way": "waiting", "let-go": "waiting"}  # fmt: skip
 PEAKS = 3  # of "the hardest brakings" that are stated
 _CURVES = frozenset({"corner", "turning", "bend", "curve", "hairpin"})  # where one turns
 _RISKIEST = frozenset({"highest", "biggest", "dangerous", "worst", "difficult"})
@@ -134,20 +135,17 @@ def most_risk(extreme: str | None) -> Extreme | None:
 
 def deed_peak(action: str, extreme: str | None) -> str:
     """Name what "the hardest braking", "the longest stop" are the peak of; "" for nothing."""
-    if extreme not in _HARD:
-        return ""
-    return "braking" if action in ("brake", "slow-down") else _DEEDS.get(action, "")
+    peak = outstanding(Event(cast(Any, action)), extreme)
+    return peak.of if peak is not None and peak.deed is None else ""
 
 
 def deed_ranked(sem: Sem, extreme: str | None) -> Noun | None:
     """Read "the slowest turn", "the fastest lane change" as the deed of its kind that is that."""
-    if not isinstance(sem, Event) or not isinstance(sem.actor, Ego) or sem.tense == "future":
+    if not isinstance(sem, Event) or sem.tense == "future" or sem.object is not None:
         return None
-    if sem.object is not None or not isinstance(sem.time, Unsaid):
-        return None
-    tight = extreme in _TIGHT and sem.action in _TURNS
-    quality = "tightness" if tight else _PACES.get(extreme or "", "")
-    return Noun("peak", of=sem, quality=quality) if quality and sem.action in _PACED else None
+    peak = outstanding(sem, extreme) if isinstance(sem.time, Unsaid) else None
+    ranked = peak is not None and peak.deed is not None
+    return Noun("peak", of=sem, quality=peak.of) if ranked and peak is not None else None
 
 
 def curve_ranked(words: tuple[str, ...], extreme: str | None) -> Noun | None:
@@ -162,12 +160,15 @@ def braked_most(sem: Sem | None, extreme: str | None) -> str:
 
 def deed_asked(clause: Clause, sem: Sem, words: tuple[str, ...]) -> Peak | None:
     """Read "which turn was the tightest", "which lane change did you make fastest"."""
+    deed = Event("turn") if _CURVES.intersection(words) else sem
+    if not isinstance(deed, Event):
+        return None
     said = (leaf.key for _, node in clause.objects for leaf in leaves_of(node))
-    for extreme in (*said, *sorted(clause.focus)):
-        found = curve_ranked(words, extreme) or deed_ranked(sem, extreme)
-        if found is not None:
-            return peak_named(found, clause.time)
-    return None
+    extremes = (*said, *sorted(clause.focus), standing_out(clause))
+    peaks = (outstanding(deed, extreme) for extreme in extremes)
+    most = next((peak for peak in peaks if peak is not None), None)
+    told = most is None or isinstance(clause.time, Unsaid)
+    return most if told or most is None else structs.replace(most, time=clause.time)
 
 
 def peak_named(noun: Noun, time: Time) -> Peak:

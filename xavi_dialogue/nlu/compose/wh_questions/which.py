@@ -47,7 +47,7 @@ from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
-from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice, outstanding, standing_out
+from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
@@ -111,8 +111,6 @@ class WhichOne:
                 return Peak(cast(Any, most), clause.time)
             case Noun(key="event") | Event(action="do") if most := most_of(clause):
                 return Peak(cast(Any, of_choice(most, wh.words)), clause.time)
-            case Event() if peak := outstanding(sem, standing_out(clause)):
-                return peak
             case Noun():
                 return self._abstract(sem, clause, value)
             case Exit():
