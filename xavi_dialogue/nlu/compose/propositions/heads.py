@@ -92,7 +92,7 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
         case "PLACEN":
             return curve_ranked(head.words, traits.extreme) or _place(head, traits)
         case "MEAS":
-            return _measure(head, traits, plural)
+            return _SIREN if head.key == "siren" else _measure(head, traits, plural)
         case "EVN":
             found = _deed(head, traits)
             return deed_ranked(found, traits.extreme) or found
@@ -110,6 +110,7 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
 _SEVERAL = frozenset({"people", "children", "schoolchildren"})  # irregular plurals
 _BARE = ("highest", "lowest", "mean", "total", "best", "tightest", "sharpest")
 _MET = (Vehicle, Described, Pronoun)
+_SIREN = Measure(Measured("sound", Described(kind="emergency", definite=False)))
 
 
 def _is_rank(traits: Traits) -> bool:
@@ -222,8 +223,6 @@ def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lan
 
 def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     of = traits.of or traits.owner
-    if head.key == "siren":
-        return Measure(Measured("sound", Described(kind="emergency", definite=False)))
     if head.key == "limit" and "number" in traits.fields:
         return described("vehicle", traits)  # "a fifty zone"
     things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
