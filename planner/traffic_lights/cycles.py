@@ -3,7 +3,7 @@
 `planner.traffic_lights.greens` has the prior of how long a green lasts. Amber lasts as by the
 formula of the Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
 FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face each other
-are assumed to be green together, and the arm that has been held longest to be next.
+are assumed to be green together, and the arm that has been held longest to be next, mostly.
 """
 
 import math
@@ -26,6 +26,7 @@ LEAST = 0.2  # [s] minimum duration of a state
 #: Quantiles of the time that a green has left, with their assumed probabilities.
 SPREAD: tuple[tuple[float, float], ...] = ((0.15, 0.3), (0.5, 0.4), (0.85, 0.3))
 MIDDLE = ((0.5, 1.0),)
+LAST = len(SPREAD) - 1  # index of the course in which an arm goes out of turn
 AGAIN = 0.8  # probability that a light goes on as it was seen to do before
 PARALLEL = math.pi / 4  # [rad] greatest angle between arms that are green together
 
@@ -122,14 +123,14 @@ class _Cycle:
         }
 
     def again(self) -> tuple[Showing, ...] | None:
-        """Return its course after the last time that it showed its present state, if it did.
+        """Return its course after the last time that it showed its last two states, if it did.
 
         Return None also if it then changed sooner than it has now.
         """
         seen, last = self._phases, len(self._phases) - 1
         for j in range(last - 2, 0, -1):
-            if alike(seen[j].states, seen[-1].states):
-                break
+            if all(alike(seen[j - k].states, seen[last - k].states) for k in (0, 1)):
+                break  # after another state, all red leads to other greens
         else:
             return None
         left = seen[j + 1].time - seen[j].time - (self._time - seen[-1].time)
@@ -147,7 +148,7 @@ class _Cycle:
 
         Args:
             quantile: of the time that greens last.
-            turn: which of the arms is next that have been held equally long, as far as was seen.
+            turn: which of the arms that may be next is next.
         """
         found = [self.here]
         held = self._held_since()
@@ -219,7 +220,7 @@ class _Cycle:
             letters: the state.
             held: since when [s] each place has been red.
             quantile: of the time that a green has left.
-            turn: which of the arms is next that have been held equally long.
+            turn: which of the arms that may be next is next.
             lasted: how long the state has lasted.
         """
         if AMBER in letters or ABOUT_TO_GO in letters:
@@ -250,10 +251,10 @@ class _Cycle:
     def _stage(self, letters: str, held: Mapping[int, float], turn: int) -> set[int]:
         """Return the next arms with green: the one held longest, and those beside and opposite.
 
-        Of several that have been held equally long, `turn` counts out one. The arms held last are
-        green with it only if it was held no longer. If a crossing has been held longer than any
-        arm, an arm is next with which it can be green. If there is none, only people on foot have
-        green.
+        Of several that have been held equally long, `turn` counts out one; its LAST is one out of
+        turn, if more than one has been held. The arms held last are green with the next only if it
+        was held no longer. If a crossing has been held longer than any arm, an arm is next with
+        which it can be green. If there is none, only people on foot have green.
         """
         waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
         order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
@@ -263,13 +264,18 @@ class _Cycle:
             stages = (self._with(first, waiting, held) for first in order)
             fitting = (x for x in stages if self._with_green(letters, x)[longest] != RED)
             return next(fitting, set())
-        equal = [k for k in order if held[k] <= held[order[0]] + LEAST]
-        alike: list[set[int]] = []
-        for first in equal:
+        equal: list[set[int]] = []
+        for first in order:
+            later = held[first] > held[order[0]] + LEAST
+            if later and (turn < LAST or held[first] >= held[order[-1]] - LEAST):
+                break
+            if any(first in known for known in equal):
+                continue
             stage = self._with(first, waiting, held)
-            if stage not in alike:
-                alike.append(stage)
-        return alike[turn % len(alike)] if alike else set()
+            if later:
+                return stage
+            equal.append(stage)
+        return equal[turn % len(equal)] if equal else set()
 
     def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
         """Return an arm that has green, and those beside and opposite that have it too."""

@@ -87,3 +87,24 @@ def test_of_arms_held_equally_long_any_may_be_next() -> None:
         for course in known.courses
     }
     assert first == {NORTH_SOUTH, EAST_WEST}
+
+
+def test_an_arm_may_go_out_of_turn() -> None:
+    """South has just ended, north is held longest, east and west less long: they may be next."""
+    south = NORTH_SOUTH[:3] + "r" * 9
+    ending = [(20.0, EAST_WEST.replace("G", "y").replace("g", "y")), (23.0, ALL_RED)]
+    over = [(25.0, south), (45.0, south.replace("G", "y").replace("g", "y")), (48.0, ALL_RED)]
+    seen = watched((0.0, EAST_WEST), *ending, *over)
+    known = foresee(crossroads(), seen, 48.5, 60.0, closely=True)
+    soon = [course.showings[1].states for course in known.courses]
+    north = place("north", "straight")
+    assert [states[north] in GREENS for states in soon] == [True, True, False]
+    assert soon[2] == EAST_WEST
+
+
+def test_all_red_after_another_green_is_no_repetition() -> None:
+    """All were red before north and south went; after them, east and west come."""
+    ending = [(20.0, EAST_WEST.replace("G", "y").replace("g", "y")), (23.0, ALL_RED)]
+    seen = watched((0.0, EAST_WEST), *ending, (25.0, NORTH_SOUTH), (45.0, AMBERS), (48.0, ALL_RED))
+    left = greens(foresee(crossroads(), seen, 48.5, 60.0, closely=True), EAST, 48.5)
+    assert max(left) < 4.0

@@ -149,6 +149,8 @@ def foreseen(
     if to is None or to == colour:
         return None
     within = sorted(_turns(known, signal, trace, to))
+    cycle = _repeats(stretches(ride, signal), now, trace.sim_time)
+    spread = cycle or len(known.courses) > 1  # one course of the prior has no range
     chance = min(sum(share for _, share in within), 1.0)
     sure = chance >= 1.0 - ROUNDING
     came = [s.begin for s in stretches(ride, signal) if COLOURS.get(s.state) == to and s.begun]
@@ -159,9 +161,9 @@ def foreseen(
         chance,
         trace.settings.horizon,
         _middle(within),
-        within[0][0] if within else None,
-        within[-1][0] if within and sure else None,
-        _repeats(stretches(ride, signal), now, trace.sim_time),
+        within[0][0] if within and spread else None,
+        within[-1][0] if within and spread and sure else None,
+        cycle,
         next((at for at in came if at > trace.sim_time + ROUNDING), None),
     )
 
@@ -200,14 +202,14 @@ def _turns(
 def odds_of(ride: Ride, signal: Signal, by: float, colour: LightColour) -> LightOdds | None:
     """Return how likely a light has turned to a colour by a time [s], or still shows it then.
 
-    None if it was not in view, or the courses expected of it do not reach that far.
+    None if it was not in view, only one course was expected of it, or none reaches that far.
     """
     trace = ride.at(ride.now)
     known = None if trace is None else _prediction(trace, signal)
     now = None if trace is None else shown(ride, signal, trace.sim_time)
     if trace is None or known is None or now is None:
         return None
-    if by > trace.sim_time + trace.settings.horizon:
+    if len(known.courses) == 1 or by > trace.sim_time + trace.settings.horizon:
         return None
     stays = COLOURS.get(now.state) == colour
     to = next(_next(known, signal, trace.sim_time, colour), None) if stays else colour
@@ -233,7 +235,7 @@ def _cumulated(times: Sequence[tuple[float, float]], by: float, now: float, end:
         points.append((time, mass + 0.5 * share))
         mass += share
     last, before = points[-1][0], points[-2][0] if times else now
-    points.append((end, mass) if mass < 1.0 - ROUNDING else (2.0 * last - before, 1.0))
+    points.append((min(2.0 * last - before, end), mass))
     return float(np.interp(by, [time for time, _ in points], [share for _, share in points]))
 
 
