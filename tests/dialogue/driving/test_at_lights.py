@@ -94,3 +94,16 @@ def test_how_much_faster_a_green_light_had_made_us_is_said(name: str, at: float,
     told = Talk(name, at).hear(text)
     assert told.startswith("Yes, by about 1")
     assert "we would have passed the light" in told
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "When did you first see the light?",
+        "when did you see the traffic light",
+        "when could you see the light",
+    ],
+)
+def test_when_we_saw_a_light_first_is_when_it_came_into_view(text: str) -> None:
+    reply = Talk("junction-0", RED).hear(text)
+    assert "it was red already when it came into my view" in reply

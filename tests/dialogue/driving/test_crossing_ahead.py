@@ -135,3 +135,18 @@ def test_it_is_not_asked_of_a_halt_before_somebody_was_seen(text: str) -> None:
     assert "in view" not in told
     assert "(vehicle 13)" in told
     assert "slowed down" in told
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["is there a cyclist behind us?", "are there bicycles next to us", "any bike beside us?"],
+)
+def test_whether_somebody_is_at_a_place_is_strict(text: str) -> None:
+    assert Talk("city-0", 15.0).hear(text).startswith("No, there is no bi")
+
+
+@pytest.mark.parametrize(
+    "text", ["is somebody on the crossing in front of us?", "is anyone on the crossing ahead"]
+)
+def test_the_crossing_ahead_is_where_people_cross(text: str) -> None:
+    assert "junction" not in Talk("junction-0", 22.0).hear(text)

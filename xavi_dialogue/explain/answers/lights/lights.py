@@ -25,7 +25,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.terms import Believed, Event, Feature, Has, Measured
+from xavi_dialogue.domain.terms import Believed, Ego, Event, Feature, Has, Measured, Related
 from xavi_dialogue.explain.answers.lights import (
     lights_ahead,
     lights_met,
@@ -120,6 +120,8 @@ def _of_fact(question: object) -> Explainer | None:
             return _asked(lights_seen.ours)
         case HowMany(of) if light_in(of, *things(of)) is not None:
             return _asked(lights_seen.count)
+        case When(Related("can-see", Ego(), Feature(kind="light"))):
+            return _asked(lights_seen.first_seen)
         case When(of) if of_showing(of) is not None:
             return _asked(lights_seen.when)
         case HowLong(of) if of_showing(of) is not None:

@@ -222,6 +222,17 @@ def when(question: When, scene: Asked) -> Answer:
     return _stretch(question.of, scene, "when")
 
 
+def first_seen(question: When, scene: Asked) -> Answer:
+    """Return when a light came into our view, and what it showed then."""
+    light = light_in(getattr(question.of, "to", None)) or Feature("light")
+    signal = meant(scene.ride, light, scene.now)
+    rows = () if signal is None else stretches(scene.ride, signal)
+    if signal is None or not rows:
+        return LightTold("seen", holds=False)
+    first = told(scene.ride, signal, rows[0], light)
+    return LightTold("when", first, first.colour, time=scene.now)
+
+
 def how_long(question: HowLong, scene: Asked) -> Answer:
     """Return how long a light has shown something, or did."""
     return _stretch(question.of, scene, "how-long")

@@ -126,9 +126,10 @@ _OF_RIDDEN = ("colour", "size", "bearing", "origin", "of", "doing")
 
 def is_crossing(phrase: Complement, place: Thing) -> bool:
     """Check whether a phrase is "on the crossing", where people cross the road."""
-    if phrase.key != "on" or place not in (Junction(), Feature("crossing")):
+    next_one = place in (Junction(), Junction(rank=1))
+    if phrase.key != "on" or not (next_one or place == Feature("crossing")):
         return False
-    return place == Feature("crossing") or words_of(phrase.node).split()[-1] in CROSSINGS
+    return not next_one or not CROSSINGS.isdisjoint(words_of(phrase.node).split())
 
 
 def also_named(first: Sem, second: Sem) -> Sem:

@@ -87,7 +87,8 @@ class Search:
         if bearing is None:
             return 0.0
         context = self.grounder.context
-        restricted = self.described.colour is not None or self.described.kind not in _ANY
+        named = self.described.colour is not None or self.described.kind not in _ANY
+        restricted = named and self.described.definite  # else whether there is one is asked
         if self.reference is not None:
             cost = seen_from(context, bearing, self.reference, vehicle, self.moment)
             return (0.5 if restricted else 1.0) * cost
