@@ -135,6 +135,8 @@ class Propositions:
             event = self._chain(clause, event)
             value = compared(clause, event) or by_event(clause, event) or Happens(event)
             if "semi-allowed" in clause.aux:
+                if event.actor == Pronoun("it"):
+                    event = with_fields(event, actor=Ego())  # "is it allowed to go?"
                 value = Is("allowed", event=event, time=event.time, tense=event.tense)
             if clause.negated:
                 value = Not(value)
