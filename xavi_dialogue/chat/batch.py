@@ -81,6 +81,9 @@ class BatchChat:
             at = reached(self.scene, at)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.backend.drive(self.client, child_commands.Until(at), halt=True)
+        if not self.live and self.scene.state == "ended" and self.scene.sim_time < at:
+            at = self.scene.sim_time
+            self.note(f"the ride ended at {at:.1f} s: questions are about then")
         self.at = at  # set only after the ride went there: other times are unknown
 
     def _ask(self, text: str) -> None:
