@@ -107,3 +107,10 @@ def test_how_much_faster_a_green_light_had_made_us_is_said(name: str, at: float,
 def test_when_we_saw_a_light_first_is_when_it_came_into_view(text: str) -> None:
     reply = Talk("junction-0", RED).hear(text)
     assert "it was red already when it came into my view" in reply
+
+
+@pytest.mark.parametrize(
+    "text", ["did you stop after it turned green?", "Did we stop after the light turned green?"]
+)
+def test_a_wait_that_ends_with_the_red_light_is_not_after_it(text: str) -> None:
+    assert Talk("junction-0", 29.0).hear(text).startswith("No, I did not stop")

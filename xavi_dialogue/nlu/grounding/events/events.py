@@ -42,6 +42,7 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
     done,
     gentle_too,
     hard_ones,
+    held_in,
     is_open,
     searched,
     undergoing,
@@ -252,7 +253,7 @@ def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
 
 def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) -> Event:
     """Find the episode that an event is, and note whether what is taken for granted holds."""
-    held = g.context.holds(found, *window.search)
+    held, window = held_in(found, window, g)
     if mode == "denied":
         return _denied(found, g, window)
     held = gentle_too(held, found, window, g) if mode == "presupposed" else held

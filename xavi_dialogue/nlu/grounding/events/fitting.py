@@ -1,5 +1,6 @@
 """Fitting: which vehicles did, or had done to them, what an event says, and in which episode."""
 
+import dataclasses
 from collections.abc import Callable
 from typing import Final
 
@@ -7,6 +8,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import (
+    Between,
     Described,
     Ego,
     Event,
@@ -24,6 +26,7 @@ LATELY: Final = 12.0  # [s] within which what is over is still asked about in th
 HARD: Final = 3.0  # [m/s2] from which braking is called hard
 NEAR: Final = 2.5  # [m/s] by which a speed that is said may be off
 JUST: Final = 0.5  # [s] since when what ended still goes on
+OVER: Final = 0.5  # [s] what ends so soon after something was not after it
 JUST_OVER: Final = 5.0  # [s] within which what ended is still felt
 FELT: Final = 0.2  # minimum share of our speed that slowing takes for it to be felt as braking
 
@@ -132,3 +135,20 @@ def _is_felt(slowing: Episode, now: float) -> bool:
     if first is None or last is None or (slowing.end or now) < now - JUST_OVER:
         return False
     return first - last >= FELT * first
+
+
+def held_in(event: Event, window: Window, g: Grounder) -> tuple[tuple[Episode, ...], Window]:
+    """Find the episodes that an event is, and the part of the ride that its time names.
+
+    What ends at once, or has begun before, is not after something: a stop that ends as we set off.
+    """
+    if window.prefer != "first" or not window.said or not isinstance(window.term, Between):
+        return g.context.holds(event, *window.search), window
+    begin, end = window.begin, window.term.end
+    then = min(begin + OVER, end)
+    window = dataclasses.replace(
+        window, begin=then, term=Between(then, end), search=(then, window.search[1])
+    )
+    held = g.context.holds(event, *window.search)
+    lasts = event.action in LASTING
+    return tuple(e for e in held if lasts or e.begin >= begin), window
