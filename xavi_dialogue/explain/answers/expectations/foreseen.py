@@ -177,6 +177,8 @@ def _meeting_us(trace: PlanTrace, way: TrajectoryPrediction, event: Event) -> bo
 def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
     """Check whether a predicted way contains an event; None if ways do not show such events."""
     action = sided(event)
+    if action == "cross" and "cross" in way.actions:
+        return True  # somebody on foot, of whom it is foreseen in so many words
     if action in YIELDS:
         return _yields(way.held_up, event) or (action == "wait" and foresees(way, "stop"))
     if action in ("stop", "stand"):
