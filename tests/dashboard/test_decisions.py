@@ -12,7 +12,7 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.fitting import fitted
-from planner.record.trace import MAX_BYTES, PlanTrace, TimedAction, encode
+from planner.record.trace import ROOM, PlanTrace, TimedAction, encode
 from sim.roads.netfile import read_network
 from sim.roads.network import Network
 from tests.dialogue.talking import ride
@@ -229,7 +229,7 @@ def test_rollouts_that_are_no_search_have_no_tree() -> None:
 
 def test_the_largest_decision_is_a_document_of_fair_size() -> None:
     worst = max(ride("town-0").traces, key=lambda trace: len(encode(trace)))
-    assert len(encode(worst)) > MAX_BYTES / 2
+    assert len(encode(worst)) > ROOM / 2
     assert len(msgspec.json.encode(whole(worst, network("town-0")))) < 200_000
     assert fitted(worst) == worst
 
