@@ -57,6 +57,8 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
         fields["rank"] = traits.ordinal
     if traits.extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
         fields["extreme"] = traits.extreme
+        if fields.get("bearing") in ("here", "around"):
+            del fields["bearing"]  # "the fastest car here" is that of all that we see
     elif traits.extreme == "smallest":
         fields["size"] = "small"
     if isinstance(traits.of, Pronoun) and (traits.extreme or traits.ordinal is not None):

@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, HowMany, Question, Whether, Why
 from xavi_dialogue.domain.terms import (
+    Both,
     Described,
     Ego,
     Event,
@@ -29,6 +30,7 @@ from xavi_dialogue.nlu.compose.refining.asked import WHEN_WE_GO
 from xavi_dialogue.nlu.compose.refining.sounds import sound_asked
 from xavi_dialogue.nlu.compose.refining.turns import turns_left
 
+_HELD: Final = frozenset(("wait", "stop", "stand", "brake", "slow-down", "give-way"))
 _INSIDE: Final = ("in", "into")
 _FOR: Final = ("for", "to", "into")
 
@@ -51,6 +53,8 @@ def refined_whether(clause: Clause, question: Question) -> Question:
             )
         ):
             return WHEN_WE_GO  # "will we be able to go when it goes green?"
+        case Whether(Both((Happens(Event() as first), Happens(Event() as other)), "or")):
+            return _either(first, other) or question
         case Whether(Is("allowed", event=Event("go", Ego()) as event)):
             return Whether(Happens(replace(event, modal="can")))  # "do we get to go now?"
         case Whether(
@@ -62,6 +66,16 @@ def refined_whether(clause: Clause, question: Question) -> Question:
                 fits = fits.content if isinstance(fits, Not) else Not(fits)
             return question if fits is None else replace(asked, that=fits)
     return only_one(clause) or sound_asked(clause, question) or question
+
+
+def _either(first: Event, other: Event) -> Why | None:
+    """Read "are you waiting for him or for the light?" as which of two is the reason."""
+    held = first.action in _HELD and first.actor == Ego() and first.action == other.action
+    rival = other.object if other.actor == Ego() else None  # "or did he?" asks of him
+    if not held or first.object is None or rival is None:
+        return None
+    deed = replace(first, object=None)
+    return Why(Happens(deed), suspect=first.object, rival=rival)
 
 
 def only_one(clause: Clause) -> HowMany | None:
