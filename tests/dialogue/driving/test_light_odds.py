@@ -57,3 +57,17 @@ def test_beyond_what_is_foreseen_no_chance_is_stated() -> None:
 
 def test_within_some_metres_is_a_distance() -> None:
     assert "metres" in Talk("city-0", RED).hear("Is anyone within ten metres of us?")
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        "Do we have to stop for the light?",
+        "must we stop at the light",
+        "do you need to stop for that light",
+    ],
+)
+def test_having_to_stop_for_a_light_ahead_is_to_come(asked: str) -> None:
+    talk = Talk("city-0", RED)
+    talk.hear("What colour is the light?")
+    assert "we will have to stop for the traffic light" in talk.hear(asked)

@@ -74,7 +74,8 @@ def _passes(event: Event, tenses: tuple[Tense, ...]) -> bool | None:
     None: it is neither, or it is that we pass it on red.
     """
     light = light_in(event.object)
-    if event.tense not in tenses or light is None or event.modal not in (None, "must"):
+    to_come = event.tense in tenses or (event.modal == "must" and event.tense == "present")
+    if not to_come or light is None or event.modal not in (None, "must"):
         return None
     if event.action in PASSING and light.colour != "red":
         return True
