@@ -143,6 +143,8 @@ def _of_lights(clause: Clause, question: Question) -> Question | None:
             isinstance(clause.subject, Measure) and clause.subject.of.attribute == "indicator"
         ):
             return HowMuch(replace(of, thing=Feature("light")))  # "what colour was your signal?"
+        case HowLong(Happens(Event("show", tense="present") as event)) if clause.has("do"):
+            return HowLong(Happens(replace(event, tense="future")))  # "how long does it stay red?"
         case Which(thing, Is("first", Wanted() as who)):
             if any(_is_queue(c.sem) for c in clause.complements):
                 return Which(thing, Related("on", who, Feature("queue")))
