@@ -26,7 +26,7 @@ LEAST = 0.2  # [s] minimum duration of a state
 #: Quantiles of the time that a green has left, with their assumed probabilities.
 SPREAD: tuple[tuple[float, float], ...] = ((0.15, 0.3), (0.5, 0.4), (0.85, 0.3))
 MIDDLE = ((0.5, 1.0),)
-LAST = len(SPREAD) - 1  # index of the course in which an arm goes out of turn
+OUT_OF_TURN = len(SPREAD) - 1  # index of the course in which an arm goes out of turn
 AGAIN = 0.8  # probability that a light goes on as it was seen to do before
 PARALLEL = math.pi / 4  # [rad] greatest angle between arms that are green together
 
@@ -251,8 +251,8 @@ class _Cycle:
     def _stage(self, letters: str, held: Mapping[int, float], turn: int) -> set[int]:
         """Return the next arms with green: the one held longest, and those beside and opposite.
 
-        Of several that have been held equally long, `turn` counts out one; its LAST is one out of
-        turn, if more than one has been held. The arms held last are green with the next only if it
+        Of several that have been held equally long, `turn` counts out one; for OUT_OF_TURN it is
+        the one after them, if there is any. The arms held last are green with the next only if it
         was held no longer. If a crossing has been held longer than any arm, an arm is next with
         which it can be green. If there is none, only people on foot have green.
         """
@@ -267,7 +267,7 @@ class _Cycle:
         equal: list[set[int]] = []
         for first in order:
             later = held[first] > held[order[0]] + LEAST
-            if later and (turn < LAST or held[first] >= held[order[-1]] - LEAST):
+            if later and (turn < OUT_OF_TURN or held[first] >= held[order[-1]] - LEAST):
                 break
             if any(first in known for known in equal):
                 continue

@@ -178,7 +178,7 @@ def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
     """Check whether a predicted way contains an event; None if ways do not show such events."""
     action = sided(event)
     if action == "cross" and "cross" in way.actions:
-        return True  # somebody on foot, of whom it is foreseen in so many words
+        return True  # of people on foot, for whom crossing is a predicted action
     if action in YIELDS:
         return _yields(way.held_up, event) or (action == "wait" and foresees(way, "stop"))
     if action in ("stop", "stand"):

@@ -13,7 +13,6 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
-    Measured,
     Nobody,
     Not,
     Passenger,
@@ -28,7 +27,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
-from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.rooms import roomy
 from xavi_dialogue.nlu.compose.verbs.deeds import tense_of, time_of
 from xavi_dialogue.nlu.compose.verbs.lights import had_light
@@ -42,13 +40,11 @@ def had(special: Special) -> Proposition:
     if lit is not None:
         return lit
     over = next((as_thing(s) for k, s in special.match.phrases.items() if k in
-                 ("over", "before", "bearing-ahead", "with")), None)  # fmt: skip
+                 ("over", "bearing-ahead", "with")), None)  # fmt: skip
     if over is None and not isinstance(special.clause.than, Clause):
         over = as_thing(special.clause.than)
     if isinstance(sem, Group) and (rivals := _rivals(special, sem)) is not None:
         return rivals
-    if [words_of(node) for _, node in special.clause.objects[:1]] == ["the right"]:
-        sem = Measure(Measured("right-of-way"))  # "they have the right before us"
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = over or sem.of.to or Everyone()
         time = time_of(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
