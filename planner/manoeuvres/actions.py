@@ -10,7 +10,15 @@ import numpy as np
 
 from planner.kernels.limits import COMFORT, STANDING_TIME
 from planner.manoeuvres.following import follow_on, stop
-from planner.manoeuvres.layout import CLEAR, FAR, Layout, finish, lookahead, waits_along
+from planner.manoeuvres.layout import (
+    CLEAR,
+    FAR,
+    Layout,
+    finish,
+    lookahead,
+    waits_after,
+    waits_along,
+)
 from planner.manoeuvres.plans import (
     ActionPlan,
     GiveWay,
@@ -205,7 +213,8 @@ def _through(
     out = next(x.out for x in reversed(way.crossings) if x.link == last)
     commit = next(x.enter for x in way.crossings if x.turns or x.link == last)
     end = out + min(CLEAR, 0.5 * roads.network.lanes[last.to_lane].length)
-    return finish(roads, action, way.path, way.manoeuvres(), end, commit, goal)
+    manoeuvres = (*way.manoeuvres(), *waits_after(roads, way, end))
+    return finish(roads, action, way.path, manoeuvres, end, commit, goal)
 
 
 def _leave(
@@ -241,5 +250,5 @@ def _next_exit(
     passed = next(x.out for x in way.crossings if x.link == near.on)
     end = max(way.end - BEFORE_EXIT, 0.5 * (passed + way.end))
     commit = next((x.enter for x in way.crossings if x.link == ring.entry), math.inf)
-    manoeuvres = (*way.manoeuvres(), LaneFollow(passed, end))
+    manoeuvres = (*way.manoeuvres(), LaneFollow(passed, end), *waits_after(roads, way, end))
     return finish(roads, "continue-next-exit", way.path, manoeuvres, end, commit, goal)

@@ -9,10 +9,11 @@ from planner.manoeuvres.layout import (
     FAR,
     INSIDE,
     STRAIGHTEN,
-    WAITS,
     Layout,
+    Wait,
     finish,
     lookahead,
+    waits_after,
     waits_along,
 )
 from planner.manoeuvres.plans import ActionPlan, GiveWay, LaneFollow, LetCross, Situation, Stop
@@ -84,9 +85,10 @@ def follow_on(
         if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
             return halt
     way = Layout.of(roads, here, tuple(lanes), goal)
-    waits = tuple(m for m in way.manoeuvres() if isinstance(m, WAITS))
     end = max(min(end, FAR, way.path.length), 0.1)
-    return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
+    waits = (m for m in way.manoeuvres() if isinstance(m, Wait))
+    manoeuvres = (LaneFollow(0.0, end), *waits, *waits_after(roads, way, end))
+    return finish(roads, "continue", way.path, manoeuvres, end, math.inf, goal)
 
 
 def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) -> float:

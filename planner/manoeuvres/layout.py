@@ -1,8 +1,10 @@
 """The way that a macro action takes: its path, and the junctions and lights on it."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+
+import numpy as np
 
 from planner.kernels.limits import COMFORT
 from planner.manoeuvres.footways import lines_over
@@ -31,7 +33,7 @@ FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction, where crossing it counts as over
 BEFORE_LINE = 0.5  # [m] before a line at which a vehicle waits
 INSIDE = 1.0  # [m] beyond its line; farther on, a vehicle blocks those with priority
-WAITS = GiveWay | KeepClear | LetCross | ObeyLight  # manoeuvres in which a vehicle may have to wait
+Wait = GiveWay | KeepClear | LetCross | ObeyLight  # manoeuvres in which a vehicle may have to wait
 SHORT = 10.0  # [m] no action ends this close before the goal: the next would begin beyond it
 
 
@@ -58,6 +60,7 @@ class Layout:
     path: Path
     end: float  # [m] arc at which the last of the lanes ends
     crossings: tuple[Crossing, ...]  # of the junctions between the lanes
+    row: tuple[str, ...]  # the lanes of the path from the last of the lanes on
 
     @classmethod
     def of(
@@ -70,30 +73,28 @@ class Layout:
         path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, 1.0)
         begins = _begins(path, row)[: len(lanes)]
         end = begins[-1] + roads.network.lanes[lanes[-1]].length
-        return cls(path, end, tuple(_crossings(roads, lanes, begins)))
+        crossings = tuple(_crossings(roads, lanes, begins))
+        return cls(path, end, crossings, row[len(lanes) - 1 :])
 
     def manoeuvres(self) -> tuple[Manoeuvre, ...]:
         """Return what is done up to the last turn, in order."""
-        found: list[Manoeuvre] = []
-        at = 0.0
-        for x in self.crossings:
-            if x.turns and not x.inside:
-                found.append(LaneFollow(at, x.enter))
-            if (x.link.foes or x.link.other_foes) and not x.inside:
-                found.append(KeepClear(x.enter - BEFORE_LINE, x.out))
-            if isinstance(x.link.control, Signal) and not x.inside:
-                found.append(ObeyLight(x.enter - BEFORE_LINE, x.link.control))
-            if x.line is not None:
-                first = frozenset((x.link.junction, index) for index in x.firsts)
-                found.append(GiveWay(x.line, x.out, x.link, first, x.foes))
-            found += x.on_foot
-            if x.turns:
-                found.append(Turn(x.enter, x.out, x.direction))
-                at = x.out
-        return tuple(found)
+        return _manoeuvres(self.crossings)
 
 
-def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuvre, ...]:
+def waits_after(roads: Roads, way: Layout, end: float) -> tuple[Wait, ...]:
+    """Return where to wait beyond the lanes of an action that ends at an arc [m].
+
+    A vehicle has to know of these before the action ends: afterwards, it is too late to brake.
+    """
+    path = way.path
+    speed = float(path.cap[min(int(np.searchsorted(path.arc, end)), len(path.cap) - 1)])
+    near = end + speed**2 / (2.0 * COMFORT)
+    if way.end - BEFORE_LINE > near:
+        return ()
+    return tuple(m for m in waits_along(roads, path, way.row) if m.stop <= near)
+
+
+def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Wait, ...]:
     """Return where to wait along the lanes of a path, assuming that it goes straight on after them.
 
     Args:
@@ -101,8 +102,8 @@ def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuv
         path: along the lanes; it may begin anywhere on them.
         row: the lanes.
     """
-    way = Layout(path, path.length, tuple(_crossings(roads, row, _begins(path, row))))
-    return tuple(m for m in way.manoeuvres() if isinstance(m, WAITS))
+    crossings = _crossings(roads, row, _begins(path, row))
+    return tuple(m for m in _manoeuvres(crossings) if isinstance(m, Wait))
 
 
 def lookahead(roads: Roads, here: Situation) -> float:
@@ -125,6 +126,27 @@ def finish(
     return ActionPlan(
         action, path, manoeuvres, end if reached is None else reached, commit, reached
     )
+
+
+def _manoeuvres(crossings: Iterable[Crossing]) -> tuple[Manoeuvre, ...]:
+    """Return what is done at junctions and between them, up to the last turn, in order."""
+    found: list[Manoeuvre] = []
+    at = 0.0
+    for x in crossings:
+        if x.turns and not x.inside:
+            found.append(LaneFollow(at, x.enter))
+        if (x.link.foes or x.link.other_foes) and not x.inside:
+            found.append(KeepClear(x.enter - BEFORE_LINE, x.out))
+        if isinstance(x.link.control, Signal) and not x.inside:
+            found.append(ObeyLight(x.enter - BEFORE_LINE, x.link.control))
+        if x.line is not None:
+            first = frozenset((x.link.junction, index) for index in x.firsts)
+            found.append(GiveWay(x.line, x.out, x.link, first, x.foes))
+        found += x.on_foot
+        if x.turns:
+            found.append(Turn(x.enter, x.out, x.direction))
+            at = x.out
+    return tuple(found)
 
 
 def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | None:
