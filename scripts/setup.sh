@@ -121,6 +121,8 @@ kernels() { cat planner/kernels/*.py; }
 warm() {
     kernels | cmp -s - "$venv/warm" && return
     say "compiling the planner"
+    # numba compiles anew what has changed, but not what calls it.
+    rm -f planner/kernels/__pycache__/*.nb[ic]
     "$venv/bin/python" -m xavi_dialogue.vehicle.compile_kernels ||
         fail "the planner does not compile; its message stands above"
     kernels >"$venv/warm"

@@ -25,7 +25,7 @@ from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import survey, way
 from planner.search.decide import Decision, Elsewhere, decide
-from planner.search.inputs import Frame, Moment, Root, at_place, root_at
+from planner.search.inputs import Frame, Moment, Root, at_place, on_lane, root_at
 from sim.roads.network import Location, Network
 from sim.scene import EGO, Command, Scene, Signal, VehicleState
 
@@ -244,8 +244,8 @@ class Driver:
                 raise DriverError(f"the ego is on no lane at {scene.time:.1f} s")
             return here
         lane, begin = current.plan.path.lane_at(current.motion.arc)
-        location = Location(lane, current.motion.arc - begin, 0.0)
-        return at_place(self._memory.now[EGO], scene.time, location)  # as the trace records it
+        known = Location(lane, current.motion.arc - begin, 0.0)
+        return on_lane(self._frame.roads, self._memory.now[EGO], scene.time, known)
 
     def _beyond(self, ego: VehicleState, time: float) -> Situation | None:
         """Return its situation if it could not stop and has driven beyond the end of the road."""

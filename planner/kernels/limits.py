@@ -8,7 +8,7 @@ from planner.kernels.course import Floats
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
-ACCELERATION = 2.0  # [m/s2] the greatest when speeding up
+ACCELERATION = 2.3  # [m/s2] the greatest when speeding up
 FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
 FIRM = 4.4  # [m/s2] the hardest braking for a waiting line
 EMERGENCY = 7.0  # [m/s2] the hardest braking

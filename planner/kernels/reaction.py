@@ -13,20 +13,16 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from planner.kernels.limits import ACCELERATION, COMFORT, FIRM, MIN_GAP, RELAXATION, STEP
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
-STEP = 0.2  # [s] of the common time base
-ACCELERATION = 2.0  # [m/s2] maximum
-COMFORT = 2.0  # [m/s2] comfortable braking
-FIRM = 4.4  # [m/s2] the hardest braking
 HEADWAY = 0.9  # [s] kept to a leader
-MIN_GAP = 2.0  # [m] to a standing leader
 COOLNESS = 0.99  # share of the constant-acceleration heuristic
 DELAY = 3  # steps after which a driver reacts to a vehicle that has come onto its path
 NOTICEABLE = 0.5  # [m/s2] minimum braking beyond the predicted one for a reaction
-RELAXATION = 0.5  # [s] in which a wanted speed is approached
 STANDING = 0.05  # [m/s] below which a predicted motion waits
 BESIDE = 0.2  # [m] kept free beside the body
 CLEARED = 0.5  # [s] before a driver arrives by which a crossing vehicle must be off its path

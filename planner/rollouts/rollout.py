@@ -16,8 +16,7 @@ import numpy as np
 from planner.hidden_areas.caution import Careful, careful_steps, caution
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
-from planner.kernels.limits import RIGHT_OF_WAY
-from planner.kernels.reaction import FIRM
+from planner.kernels.limits import FIRM, RIGHT_OF_WAY
 from planner.manoeuvres.actions import ActionPlan, Situation
 from planner.motion.forward import DT, Drive, Hindrances, Motion, Stops, drive, lane_of
 from planner.motion.obstacles import HOW, Traffic

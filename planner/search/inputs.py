@@ -63,6 +63,12 @@ def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
     return at_place(ego, time, found[0])
 
 
+def on_lane(roads: Roads, ego: VehicleState, time: float, known: Location) -> Situation:
+    """Return the situation of the ego on a known lane, as it follows from its recorded state."""
+    found = lanes_at(roads, ego.position, ego.heading)
+    return at_place(ego, time, next((place for place in found if place.lane == known.lane), known))
+
+
 def at_place(ego: VehicleState, time: float, place: Location) -> Situation:
     """Return the situation of the ego at a place of the road network."""
     return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, place)

@@ -87,8 +87,8 @@ def test_somebody_is_imagined_at_the_nearest_hidden_place() -> None:
 
 
 def test_how_likely_that_is_hangs_on_how_much_is_hidden_and_on_the_traffic() -> None:
-    # From where it can just still stop, the ego needs 0.9 + 10 / 6 s and then 16.8 m at 2 m/s2.
-    needed = 0.9 + 10.0 / 6.0 + (math.sqrt(100.0 + 4.0 * 16.8) - 10.0) / 2.0
+    # From where it can just still stop, the ego needs 0.9 + 10 / 6 s and then 16.8 m at 2.3 m/s2.
+    needed = 0.9 + 10.0 / 6.0 + (math.sqrt(100.0 + 4.6 * 16.8) - 10.0) / 2.3
     assert time_across(ROADS.network, MINE, car(70.0)) == pytest.approx(needed)
     assert one(NEAR).hidden == pytest.approx(30.0)  # of it, all: 14 m/s lasts for more
     assert one(NEAR).probability == pytest.approx(

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from planner.kernels.collision import first_hit
-from planner.kernels.reaction import DELAY, FIRM, react
+from planner.kernels.limits import FIRM
+from planner.kernels.reaction import DELAY, react
 from planner.motion.forward import DT
 from planner.motion.obstacles import Obstacle, Traffic
 from planner.roads.levels import NOBODY_ELSEWHERE

@@ -328,7 +328,7 @@ def test_a_late_conflict_stops_the_ego_inside_the_junction_if_it_still_can() -> 
     here = situation("s2", TURN[0], before_end("s2", TURN[0], 25.0), 2.0)
     plan = plan_of("s2", here, "exit-right")
     line = plan.give_ways[0].stop
-    other = from_west("straight", 30.0, 10.0)
+    other = from_west("straight", 27.0, 10.0)
     for beyond in (0.3, 0.8, 2.0):
         start = Motion(line + beyond, 1.0, 0.0)
         driven = drive(plan, start, 0, Traffic.of((other,)), SIZE, HORIZON)

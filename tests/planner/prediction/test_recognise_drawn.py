@@ -242,7 +242,7 @@ def test_no_way_leads_past_the_end() -> None:
     assert on(avenue(length=200.0), 100.0, 10.0, 1.5) == []
 
 
-@pytest.mark.parametrize(("behind", "waits"), [(25.0, True), (32.0, True), (60.0, False)])
+@pytest.mark.parametrize(("behind", "waits"), [(25.0, True), (30.0, True), (60.0, False)])
 def test_who_stands_and_cannot_move_out_now_waits(behind: float, waits: bool) -> None:
     roads, track = avenue(), eastward(150.0, [0.0] * 10)
     frame = Task(roads, EgoGoal("", 0.0, None), SIZE, 40.0, STEPS, 100.0, yielding=True)
