@@ -10,6 +10,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from msgspec import structs
+
 from planner.record.events import RestraintKind
 from planner.record.trace import HoldUp, PlanTrace
 from xavi_dialogue.causal.model import Actions, CausalModel
@@ -25,7 +27,7 @@ from xavi_dialogue.explain.causes.driving.roadside import (
     limit_at,
     road_causes,
 )
-from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, motion_cause
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, in_force, motion_cause
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.driving.yielding import kept
 from xavi_dialogue.explain.causes.plans.contrast import evidence, factual
@@ -179,10 +181,25 @@ def as_driven(ride: Ride, world: World, deed: Episode, at: float) -> Reasons | N
     if not any(parts) and all(one.by == "hidden" for one in held.found):  # it made no difference
         parts = [_stated(ride, world, deed, one, tested, at) for one in held.minor]
     others = tuple(tested.causes.values()) if tested.either else ()
+    causation = tested.causation
+    if deed.end is None or deed.action in STATES:
+        others, causation = _in_force(ride, others, causation, at)
     causes = tuple(dict.fromkeys([cause for part in parts for cause in part] + list(others)))
     if not causes:
         return None
-    return Reasons(causes, tested.causation, tested.evidence, trace)
+    return Reasons(causes, causation, tested.evidence, trace)
+
+
+def _in_force(
+    ride: Ride, others: tuple[MotionCause, ...], causation: Causation | None, at: float
+) -> tuple[tuple[MotionCause, ...], Causation | None]:
+    """Name whom leaving the lane would hit now instead of who was in the way of it before."""
+    told = tuple(in_force(ride, one, at) for one in others)
+    gone = {a.vehicle for a, b in zip(others, told, strict=True) if a.vehicle != b.vehicle}
+    if causation is None or not gone:
+        return told, causation
+    left = tuple(vehicle for vehicle in causation.vehicles if vehicle not in gone)
+    return told, structs.replace(causation, kind="one", vehicles=left)
 
 
 def _decision(ride: Ride, deed: Episode, held: Restraining) -> PlanTrace | None:

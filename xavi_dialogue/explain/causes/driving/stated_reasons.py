@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from msgspec.structs import replace
+
 from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.answers import Cause, Evidence, MotionCause
 from xavi_dialogue.domain.evidence import Causation
@@ -15,6 +17,7 @@ from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import Ride
 
 FASTER = 2.0  # [m/s] by which a leader may be faster and still be in the way
+BARRED = 0.5  # probability of a collision from which a change of lanes is out of the question
 SINCE: tuple[ActionName, ...] = (*EXITS, *CHANGES, "stop")
 
 
@@ -73,3 +76,20 @@ def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[Mot
         if theirs is None or ours is None or theirs <= ours + FASTER:
             found.append(told)
     return tuple(found)
+
+
+def in_force(ride: Ride, cause: MotionCause, time: float) -> MotionCause:
+    """Name whom a change of lanes would hit at a time [s], if that is another than before."""
+    trace = ride.at(time)
+    if cause.kind != "no-room" or trace is None:
+        return cause
+    model = ride.model(trace)
+    plans = (model.intervene((action,)) for action in CHANGES if action in model.options())
+    struck = [found for plan in plans if plan is not None for found in (plan.collisions(),)]
+    if any(cause.vehicle in found for found in struck):
+        return cause
+    worst = max((item for found in struck for item in found.items()),
+                key=lambda item: item[1], default=None)  # fmt: skip
+    if worst is None or worst[1] < BARRED:
+        return cause
+    return replace(cause, vehicle=worst[0], actions=(), probability=None, did=None, necessary=None)
