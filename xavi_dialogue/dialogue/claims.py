@@ -7,6 +7,8 @@ if it disputes what we said or did, is false, and matters, and if the answer doe
 from collections.abc import Sequence
 from typing import Final, TypeAlias
 
+from msgspec.structs import replace
+
 from xavi_dialogue.dialogue.state.discourse import causes_of
 from xavi_dialogue.dialogue.state.turn import Part
 from xavi_dialogue.domain.answers import (
@@ -180,15 +182,28 @@ def _is_statement(part: Part) -> bool:
 
 
 def _declined_once(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Keep at most one refusal to drive otherwise, and none if a reason explains it already."""
+    """Keep at most one refusal to drive otherwise, and none if a reason explains it already.
+
+    What the car cannot do at all is refused beside it: "honk and drive on".
+    """
     told_why = any(isinstance(part.result, REASONS) for part in said)
     declined = [part for part in said if isinstance(part.result, Declined)]
     others = any(isinstance(p.act.act, Ask) for p in said if p.act is not None)
     idle = [part for part in declined if others and part.result.already]  # type: ignore[union-attr]
-    dropped = [*declined[1:], *idle]
+    able = [part for part in declined if part.result.able]  # type: ignore[union-attr]
+    unable = [part for part in declined if part not in able]
+    dropped = [*able[1:], *unable[1:], *idle]
     if told_why and declined and declined[0].result.cause is not None:  # type: ignore[union-attr]
         dropped = declined
-    return tuple(part for part in said if not any(part is one for one in dropped))
+    left = tuple(part for part in said if not any(part is one for one in dropped))
+    return tuple(_without_reason(part) for part in left) if told_why else left
+
+
+def _without_reason(part: Part) -> Part:
+    """Leave out of a refusal to drive otherwise what is said in the reason beside it."""
+    if not isinstance(part.result, Declined):
+        return part
+    return replace(part, result=replace(part.result, reason=None, ahead=None, facts=()))
 
 
 def kept(said: Sequence[Part]) -> tuple[Part, ...]:

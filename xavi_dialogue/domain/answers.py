@@ -104,7 +104,7 @@ class Declined(Value, frozen=True):
     soon: float | None = None  # [s] when the plan does it anyway
     facts: tuple[Measure, ...] = ()  # that bear on it: our speed, when we drive on or arrive
     cause: MotionCause | None = None  # why the car must drive as it does
-    reason: ChoiceReason | None = None  # what speaks against it, by the decision in force
+    reason: ChoiceReason | Options | Slowing | None = None  # against it; or what we do anyway
 
 
 class Sociable(Value, frozen=True):

@@ -298,7 +298,7 @@ class Slowing(Value, frozen=True):
     held: float  # share of the rollouts in which they hold us up
     slows: bool = False  # the question is whether we slow down, not whether we stop
     slow: float | None = None  # [m/s] lowest speed; None: we do not slow down
-    time: float | None = None  # [s] when we stand
+    time: float | None = None  # [s] when we stand, or begin to slow down
     share: float | None = None  # of the rollouts in which we come to a standstill
     order: Literal["we", "they", "nobody"] | None = None  # who comes first where our ways meet
     yields: bool = False  # there are some to whom we must give way at the next junction

@@ -119,11 +119,17 @@ def test_who_asks_for_more_or_less_room_is_told_how_much_there_is() -> None:
 def test_a_wish_about_our_manner_is_met_with_our_speed() -> None:
     ride = made(BESIDE, 4.0, roads=ring)
     for event in (
-        Event("brake", manner=("gently",), tense="present"),
+        Event("move", manner=("gently",), tense="present"),
         Event("turn", manner=("slowly",), tense="present"),
     ):
         wish = told(ride, Request(event))
         assert [m.attribute for m in wish.facts] == ["speed"]
+
+
+def test_braking_a_little_is_to_brake_where_we_have_not_braked() -> None:
+    ride = made(BESIDE, 4.0, roads=ring)
+    wish = told(ride, Request(Event("brake", manner=("gently",), tense="present")))
+    assert wish.request.event == Event("brake", tense="present")
 
 
 def test_the_arrival_is_told_once() -> None:

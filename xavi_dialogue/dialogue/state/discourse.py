@@ -167,6 +167,8 @@ def _weighed(turn: Turn) -> _Weighed | None:
                 option = Event(told.action, tense="present")
             case Declined(request=Request(event=event)) if event.action in OPTIONAL:
                 option = replace(event, actor=Ego(), tense="present")
+        if option is None and (wish := _wish(asked)) is not None and wish.action in OPTIONAL:
+            option = replace(wish, actor=Ego(), tense="present", modal=None)
         against = next(parts(part.result, Contrast), None)
         refused = isinstance(part.result, get_args(Refusal))
         if option is None or (refused and not isinstance(part.result, NotApplicable)):
@@ -183,6 +185,16 @@ def _weighed(turn: Turn) -> _Weighed | None:
     if any(act.leaned for act in turn.acts):
         return None
     return None, None
+
+
+def _wish(act: Act | None) -> Event | None:
+    """Find what we are asked or advised to do from now on."""
+    match act:
+        case Request(event=event, negated=False):
+            return event
+        case Claim(Happens(Event(actor=Ego(), modal="should", tense="present") as event)):
+            return event
+    return None
 
 
 def _option_in(question: Question) -> Event | None:

@@ -29,7 +29,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Whither,
 )
-from xavi_dialogue.domain.terms import Ego, Event, Happens
+from xavi_dialogue.domain.terms import Event, Happens
 from xavi_dialogue.explain.answers.events.accounts import listing, summarise
 from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.events.decisions import changed
@@ -41,7 +41,7 @@ from xavi_dialogue.explain.answers.propositions.identify import identify
 from xavi_dialogue.explain.answers.propositions.lasting import how_long
 from xavi_dialogue.explain.answers.propositions.verdicts import claim, whether
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.requests import NEARNESS, request
+from xavi_dialogue.explain.answers.requests import advises, request
 from xavi_dialogue.explain.answers.ride.places import where, whither
 from xavi_dialogue.explain.answers.talk import feel, social
 from xavi_dialogue.explain.answers.turns import how_many, how_much, who
@@ -72,11 +72,9 @@ QUESTIONS: Mapping[type, Explainer] = {
 
 
 def _claim(act: Claim, asked: Asked) -> Answer:
-    """Check a claim; what we should do about our distance counts as a request."""
+    """Check a claim; how fast, how far off and where we should drive counts as a request."""
     match act.that:
-        case Happens(event=Event(actor=Ego(), modal="should", tense="present") as event) if (
-            event.action in NEARNESS
-        ):  # "you should keep more distance"
+        case Happens(event=Event() as event) if advises(event):  # "you should keep more distance"
             return request(Request(replace(event, modal=None)), asked)
     return claim(act, asked)
 

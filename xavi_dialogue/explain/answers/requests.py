@@ -10,6 +10,8 @@ from xavi_dialogue.domain.answers import (
     MotionCause,
     MotionReason,
     NeedRollout,
+    Options,
+    Slowing,
 )
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
@@ -24,6 +26,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     sided,
 )
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.expectations.slowing import speed_ahead
 from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.measuring.nearing import past_leader
 from xavi_dialogue.explain.answers.propositions.happenings import activity
@@ -32,6 +35,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import known
 from xavi_dialogue.explain.answers.reference.naming import number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.suppositions.risks import barred
 from xavi_dialogue.explain.answers.talk import speed_of
 from xavi_dialogue.explain.causes.plans.options import options_at
 
@@ -44,8 +48,19 @@ PACED: frozenset[ActionName] = DRIVING | {"pass", "overtake", "turn", "enter", "
 NEARNESS: frozenset[ActionName] = frozenset(("keep-distance", "approach"))
 KEPT = 1.8  # [s] minimum headway at which we keep our distance
 ELSEWHERE = "the way to the destination leads elsewhere"
+LATELY = 10.0  # [s] in which we braked, where a passenger wants us to do so more gently
 SOON = 3.0  # [s] within which a planned action counts as begun
+GENTLER: frozenset[ActionName] = frozenset(("slow-down", "brake"))
+#: What passengers advise us to do: that is a wish.
+ADVISED: frozenset[ActionName] = SPEEDS | NEARNESS | BEYOND | {"wait", "stop"}
 TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
+
+
+def advises(event: Event) -> bool:
+    """Check whether that we should do something is a wish about our driving from now on."""
+    owed = event.modal == "must" and event.action in GENTLER | NEARNESS
+    to_come = event.tense in ("present", "future") and (owed or event.modal == "should")
+    return to_come and isinstance(event.actor, Ego) and event.action in ADVISED
 
 
 def request(act: Request, asked: Asked) -> Answer:
@@ -57,11 +72,14 @@ def request(act: Request, asked: Asked) -> Answer:
     act = replace(act, event=past_leader(asked, _to_lane(_paced(act.event))))
     if act.negated and "close" in act.event.manner:  # "do not get so close"
         act = replace(act, event=replace(act.event, action="keep-distance"), negated=False)
+    act = replace(act, event=_braking(asked, act.event))
     event = act.event
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)
     if not asked.ride.traces or _asks_manner(act):
-        return Declined(act, able, doing=now, facts=_speed(asked))
+        slower = speed_ahead(asked) if able and not act.negated else None
+        facts = () if slower is not None else _speed(asked)
+        return Declined(act, able, doing=now, facts=facts, reason=slower)
     ahead = plan_ahead(asked)
     ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
     if act.negated:
@@ -69,7 +87,8 @@ def request(act: Request, asked: Asked) -> Answer:
         cause = _cause(asked) if meant and event.action in HALTS | YIELDS | SPEEDS else None
         return Declined(act, able, ahead, now, already=not meant, cause=cause)
     already = able and _doing(asked, event, now.trend)
-    soon = _coming(asked, event) if able and not already else None
+    gentler = speed_ahead(asked) if event.action in GENTLER and not already else None
+    soon = _coming(asked, event) if able and not already and gentler is None else None
     cannot = _cannot(asked, event) if able and not already and soon is None else None
     if event.action == "overtake" and not already and soon is None and cannot is None:
         staying = refraining.not_passed(replace(event, action="follow"), asked)
@@ -78,17 +97,22 @@ def request(act: Request, asked: Asked) -> Answer:
     hurried = sided(event) in STARTS | {"speed-up", "continue"}
     halting = event.action in ("stop", "wait")  # the answer names whom we brake for anyway
     cause = _cause(asked) if able and (hurried or halting) and soon is None else None
-    facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None
     decided = soon is not None or cannot is not None or cause is not None
-    reason = _against(asked, event) if able and not already and not decided else None
+    open_ = able and not already and not decided
+    reason = gentler or (_against(asked, event) if open_ else None)
+    told = cause is None and gentler is None and (reason is None or event.action != "brake")
+    facts = _instead(asked, event) if told else ()
     return Declined(act, able, ahead, now, already, cannot, soon, facts, cause, reason)
 
 
-def _against(asked: Asked, event: Event) -> ChoiceReason | None:
+def _against(asked: Asked, event: Event) -> ChoiceReason | Options | Slowing | None:
     """Return what speaks against a request, if the record shows that without further rollouts."""
-    if not macros(event) or event.action in ENDING:
+    braking = event.action == "brake"
+    if not (macros(event) or braking) or event.action in ENDING:
         return None
+    if (struck := barred(asked, macros(event))) is not None:
+        return struck
     try:
         found = choices.why_not(replace(event, actor=Ego(), time=Now(), tense="present"), asked)
     except Unanswered:
@@ -107,6 +131,14 @@ def _paced(event: Event) -> Event:
     if event.action in PACED and "slowly" in event.manner:
         return replace(event, action="slow-down", object=None, manner=())
     return event
+
+
+def _braking(asked: Asked, event: Event) -> Event:
+    """Take "brake a little" for braking, where we have not braked lately: no more gently."""
+    since = max(asked.world.begin, asked.now - LATELY)
+    if event.action != "brake" or asked.world.episodes(Ego(), ("brake",), since, asked.now):
+        return event
+    return replace(event, manner=tuple(m for m in event.manner if m not in GENTLE))
 
 
 def _to_lane(event: Event) -> Event:

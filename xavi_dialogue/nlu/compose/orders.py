@@ -22,7 +22,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.telling import Telling
 from xavi_dialogue.nlu.compose.verbs.others import is_other
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
-from xavi_dialogue.nlu.compose.wishes import paced, request
+from xavi_dialogue.nlu.compose.wishes import alights, pace_of, paced, request, requests
 
 _TELLING = frozenset(
     {
@@ -104,17 +104,22 @@ class Orders(Telling):
         modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
         minded = "semi-mind" in clause.aux  # "would you mind moving over"
         modal, refrain = modal or minded, refrain or minded
+        of = fact(value) if value is not None else None
+        if isinstance(of, Happens) and modal and alights(clause):
+            return (request(of.event, clause),)  # "can I get out here?"
         if not modal or clause.has("have") or not isinstance(clause.subject, Ego):
             return None
         supposing = clause.condition is not None or clause.without is not None
         if clause.still or "semi-can" in clause.aux or supposing:
             return None
-        of = fact(value) if value is not None else None
         plain = of is None or isinstance(of, Is) or (isinstance(of, Compares) and not please)
         speed = None if plain or of is None else paced(of)
         if speed is not None:
             return (speed,)
         event = of.event if isinstance(of, Happens) else None
+        if event is not None and event.action == "do" and not clause.negated:
+            found = pace_of(clause, event)  # "could you take the next one slower?"
+            return None if found is None else (found,)
         if isinstance(of, Not) and isinstance(of.content, Happens):
             event = of.content.event
         if event is None or event.action in (
@@ -133,7 +138,7 @@ class Orders(Telling):
         on_red = isinstance(event.object, Feature) and event.object.colour == "red" and not please
         if clause.than is not None or in_time or races or on_red:
             return None  # "can you stop in time?", "can we turn on red?"
-        return (request(event, clause, negated=refrain and isinstance(of, Not)),)
+        return requests(event, clause, negated=refrain and isinstance(of, Not))
 
     def _best(self, clause: Clause) -> Any:
         found = self.composer.propositions.readings(clause)
@@ -239,7 +244,7 @@ class Orders(Telling):
         of = fact(value)
         match of:
             case Happens(event=event):
-                return (request(event, clause, negated=negated),)
+                return requests(event, clause, negated=negated)
             case Not(content=Happens(event=event)):
                 return (request(event, clause, negated=True),)
         speed = paced(Not(of) if negated and not isinstance(of, Not) else of)

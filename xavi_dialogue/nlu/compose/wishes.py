@@ -17,8 +17,9 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Proposition,
 )
-from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.flags import ALIGHTING
 from xavi_dialogue.nlu.compose.clauses.sem import Measure
 
 CONTRARY: Final[dict[str, ActionName]] = {"fast": "slow-down", "slowly": "speed-up"}
@@ -30,13 +31,23 @@ _WANTED: Final[dict[str, ActionName]] = {
 }  # fmt: skip
 
 
+def alights(clause: Clause) -> bool:
+    """Check whether it is the passenger who gets out, or off: "I want to get out here"."""
+    off = any(leaf.key in ("out", "off") for leaf in clause.particles)
+    verb = None if clause.verb is None else clause.verb.key
+    return off and verb in ALIGHTING and isinstance(clause.subject, Passenger)
+
+
 def bidden(event: Event, clause: Clause) -> Event:
     """Give the deed that is asked for, whatever the verb form; "another lap" goes round again."""
     again = "again" in event.manner and any(p.key == "around" for p in clause.particles)
+    if alights(clause):
+        event = Event("drop-off", object=Passenger())
     lap = event.action == "do" and isinstance(event.object, Junction)
     if lap or (again and event.action in ("go", "move")):
         event = structs.replace(event, action="circle", object=None, manner=())
-    return structs.replace(event, tense="present", modal=None)
+    actor = Ego() if isinstance(event.actor, Passenger) else event.actor
+    return structs.replace(event, actor=actor, tense="present", modal=None)
 
 
 def request(event: Event, clause: Clause, *, negated: bool = False) -> Request:
@@ -53,6 +64,21 @@ def request(event: Event, clause: Clause, *, negated: bool = False) -> Request:
     if deed.action == "approach":
         return Request(Event("keep-distance", Ego(), deed.object, tense="present"))
     return Request(deed, negated=True)
+
+
+def requests(event: Event, clause: Clause, *, negated: bool = False) -> tuple[Act, ...]:
+    """Give the requests for a deed and for what is to follow: "honk and drive on" is two."""
+    then = event.then
+    if negated or then is None or event.action not in BEYOND:
+        return (request(event, clause, negated=negated),)
+    return request(structs.replace(event, then=None), clause), Request(bidden(then, clause))
+
+
+def pace_of(clause: Clause, event: Event) -> Request | None:
+    """Give the request in how something is to be taken: "take the next one slower"."""
+    compared = [_WANTED[key] for key, _ in clause.comparisons if key in _WANTED]
+    taken = event.object is not None and event.action == "do"
+    return Request(Event(compared[0], tense="present")) if compared and taken else None
 
 
 def paced(of: Proposition | None) -> Request | None:
@@ -86,7 +112,7 @@ def wished(of: Proposition, clause: Clause, *, wishing: bool) -> Act | None:
     if not isinstance(content, Happens) or not isinstance(content.event.actor, Ego | Passenger):
         return paced(of) if wishing else None
     event = content.event
-    own = event.modal == "want" and event.tense == "present"
+    own = event.modal == "want" and (event.tense == "present" or alights(clause))
     own = own and isinstance(clause.subject, Passenger)
     if not (wishing or own) or event.action == "do":
         return None

@@ -137,6 +137,8 @@ def _discussed(discourse: Discourse, done: GroundedAct, context: Context) -> Dis
     named = named_time(done, context.now)
     if named is not None:
         discourse = replace(discourse, named=named)
+    if isinstance(done.act, Request):
+        discourse = replace(discourse, option=done.act.event, last_acts=(done.act,))
     of = proposition_of(done.act.question) if isinstance(done.act, Ask) else None
     return replace(discourse, propositions=(of, *discourse.propositions)) if of else discourse
 

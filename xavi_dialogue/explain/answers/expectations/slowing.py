@@ -64,7 +64,9 @@ def speed_ahead(asked: Asked) -> Slowing | None:
     if slow is None or speed is None or speed - slow < SLOWER:
         return None
     if stop is None or stop.share < EXPECTED:
-        return Slowing((), False, 0.0, slows=True, slow=slow)
+        slower = foreseen(asked, Event("slow-down"))
+        begin = None if slower is None else slower.moment
+        return Slowing((), False, 0.0, slows=True, slow=slow, time=begin)
     return Slowing((), True, 0.0, slow=slow, time=stop.moment, share=stop.share)
 
 

@@ -2,10 +2,11 @@
 
 import dataclasses
 from collections import Counter
+from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from planner.record.trace import PlanTrace, Rollout
+from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.model import plan_of
 from xavi_dialogue.domain.answers import Answer, Identified, Options, SupposedOfUs
 from xavi_dialogue.domain.discourse import Span
@@ -42,6 +43,8 @@ from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.restraints import restraints
+
+BARRED = 0.5  # probability of a collision from which it alone speaks against an action
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:
@@ -181,6 +184,16 @@ def _begun(trace: PlanTrace, option: OptionValue) -> list[Rollout]:
     """List the rollouts that begin with an option, each once."""
     begun = (r for r in trace.rollouts if r.actions and r.actions[0].action == option.action)
     return list({(r.samples, plan_of(r)): r for r in begun}.values())
+
+
+def barred(asked: Asked, actions: Sequence[Action]) -> Options | None:
+    """Return whom one of some actions would hit by the decision in force, if that is likely."""
+    trace = asked.ride.latest
+    rows = [row for row in of_trace(asked.ride, trace) if row.action in actions and not row.chosen]
+    worst = max(rows, key=lambda row: row.collision, default=None)
+    if worst is None or worst.collision < BARRED:
+        return None
+    return _struck(trace, worst)
 
 
 def _struck(trace: PlanTrace, option: OptionValue) -> Options:

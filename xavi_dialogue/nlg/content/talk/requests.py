@@ -2,12 +2,13 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Declined
+from xavi_dialogue.domain.answers import ChoiceReason, Declined, Options, Slowing
 from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE
 from xavi_dialogue.nlg.content.clauses.clauses import event_clause
 from xavi_dialogue.nlg.content.clauses.joint_measures import measure_messages
 from xavi_dialogue.nlg.content.clauses.measures import SOON
-from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.plan import Part, Plan
+from xavi_dialogue.nlg.content.observed.beliefs import plan_options
 from xavi_dialogue.nlg.content.observed.conduct import plan_ahead
 from xavi_dialogue.nlg.content.reasons.driven import motion_cause
 from xavi_dialogue.nlg.content.reasons.reasons import plan_choice
@@ -29,6 +30,7 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     event, negated = answer.request.event, answer.request.negated
     kept = event.object if event.action not in BARE else None
     where = None if event.where is None or event.where.relation == "same-as" else event.where
+    where = None if event.action in ("brake", "slow-down") else where
     told = replace(event, manner=(), object=kept, then=None, where=where)
     clause = event_clause(told, context.now, tense="present")
     if event.action == "keep-distance":
@@ -71,8 +73,30 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     slots["reason"] = None if why is None else reason_in_words(why, past=False)
     slots["fact"] = fact
     slots["anyway"] = _anyway(answer, context) if answer.reason is None else None
-    against = () if answer.reason is None else plan_choice(answer.reason, context).core
+    slots["slow"], against = None, _against(answer.reason, context)
+    if isinstance(answer.reason, Slowing):
+        slots |= _slowing(answer.reason, context)
     return Plan((Message("DECLINED_VERB", slots), *against))
+
+
+def _against(
+    reason: ChoiceReason | Options | Slowing | None, context: SpeechContext
+) -> tuple[Part, ...]:
+    """Return what speaks against a request, in sentences of their own."""
+    match reason:
+        case ChoiceReason():
+            return plan_choice(reason, context).core
+        case Options():
+            return plan_options(reason, context).core
+    return ()
+
+
+def _slowing(reason: Slowing, context: SpeechContext) -> dict[str, object]:
+    """Return how far we slow down anyway, or when we stop."""
+    left = None if reason.time is None else max(reason.time - context.now, 0.0)
+    soon = None if left is None or left < SOON else Quantity(left, "s")
+    slow = None if reason.slow is None else Quantity(reason.slow, "m/s")
+    return {"slow": slow, "stops": reason.stops, "begin": soon}
 
 
 def _anyway(answer: Declined, context: SpeechContext) -> Message | None:

@@ -270,7 +270,8 @@ class Slots:
             case "BE" | "GOT" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
                 clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key.removesuffix('-not')}")
                 clause.negated ^= leaf.category == "SEMI" and leaf.key.endswith("not")
-                if leaf.category == "SEMI" and leaf.words[0] in _PAST and not clause.has("be"):
+                past = leaf.words[0] in _PAST and leaf.words != ("had", "better")
+                if leaf.category == "SEMI" and past and not clause.has("be"):
                     clause.aux.append("semi-past")
             case "NOT":
                 clause.negated = not clause.negated

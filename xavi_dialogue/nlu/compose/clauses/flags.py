@@ -6,6 +6,8 @@ from xavi_dialogue.domain.terms import WholeRide
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 
 GOING: Final = frozenset(("go", "pass", "cross", "proceed"))  # what somebody is let do
+ALIGHTING: Final = frozenset(("get", "hop", "climb", "step", "jump"))
+_OUT: Final = frozenset(("out", "off"))
 
 
 def flag(kind: str, wanted: str, clause: Clause) -> bool:
@@ -35,6 +37,11 @@ def flag(kind: str, wanted: str, clause: Clause) -> bool:
         case "go":
             inner = clause.bare.verb if clause.bare is not None else None
             return inner is not None and inner.key in GOING
+        case "alight":  # "let me get out"
+            verb = clause.bare.verb if clause.bare is not None else None
+            said = [] if clause.bare is None else clause.bare.particles
+            off = any(leaf.key in _OUT for leaf in (*said, *clause.particles))
+            return off and verb is not None and verb.key in ALIGHTING
         case "close" | "long" | "again":
             return kind in clause.manner
         case "whole":

@@ -19,6 +19,7 @@ FLAGS = frozenset(
         "origin",
         "until",
         "go",
+        "alight",
         "q",
         "close",
         "long",

@@ -8,6 +8,7 @@ from xavi_dialogue.nlu.compose.clauses.flags import flag
 from xavi_dialogue.nlu.compose.clauses.patterns import FLAGS, STRANDED, WORDED, Role, Sense
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, is_thing, types
 
+_DEEDS = frozenset({"go", "alight"})  # roles of what somebody is let do
 _NO_BASE = frozenset({"be", "have"})  # auxiliaries that no base form follows
 VAGUE = 0.25  # cost of a pronoun as the subject that a sense asks for
 LEFT_OBJECT = 1.3  # cost of an object without a role
@@ -124,7 +125,7 @@ def _ungoverned(sense: Sense, clause: Clause) -> float:
     for kind, inner, price in (("that", clause.that, 0.9), ("wh", clause.question, 1.2),
                                ("bare", clause.bare, 0.8), ("ger", clause.gerund, 0.3),
                                ("inf", clause.infinitive, 0.1)):  # fmt: skip
-        if inner is not None and kind not in kinds and not (kind == "bare" and "go" in kinds):
+        if inner is not None and kind not in kinds and not (kind == "bare" and kinds & _DEEDS):
             cost += price
     return cost
 

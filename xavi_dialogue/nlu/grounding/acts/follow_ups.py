@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.discourse import Discourse, Span
 from xavi_dialogue.domain.meaning import (
     Compare,
+    HowAvoid,
     HowDecide,
     HowKnow,
     HowLong,
@@ -51,6 +52,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     events,
     explained,
     proposition_of,
+    wished,
 )
 from xavi_dialogue.nlu.grounding.completion.listed import of_listed
 from xavi_dialogue.nlu.grounding.completion.supposing import is_on_red
@@ -73,7 +75,7 @@ def followed(spoken: Question, g: Grounder) -> Question:
     """Ask of the option or decision under discussion, where nothing else is said."""
     discourse = g.context.discourse
     asked = discourse.question
-    meant = of_them(spoken, g) or of_listed(spoken, g) or _limiting(spoken)
+    meant = of_them(spoken, g) or of_listed(spoken, g) or _stopping(spoken, g) or _limiting(spoken)
     if (meant := meant or _suspecting(spoken, g)) is not None:
         return meant
     if (option := discourse.option) is not None and is_on_red(option) and _judges_that(spoken):
@@ -149,6 +151,25 @@ def _judges_that(spoken: Question) -> bool:
         case Whether(that=Is(thing=Pronoun(form="it" | "that"), event=None)):
             return True
     return isinstance(spoken, Compare) and spoken.options == (That(),)
+
+
+def _stopping(spoken: Question, g: Grounder) -> Why | None:
+    """Take "what is stopping you?" after a wish for why we do not do as we are asked."""
+    if (option := wished(g.context.discourse)) is None:
+        return None
+    match spoken:
+        case Which(Wanted(), Happens(Event("block" | "stop", Wanted(), Ego(), tense="present"))):
+            pass
+        case Which(Wanted(), Happens(Event("wait", Ego(), Wanted(), tense="present"))):
+            pass
+        case Why(That() | Not(That() | Happens(Event("do", Ego(), Pronoun() | None)))):
+            pass
+        case HowAvoid(of=None):
+            pass
+        case _:
+            return None
+    g.notes.leaned = True
+    return Why(Not(Happens(option)))
 
 
 def _limiting(spoken: Question) -> Which | None:

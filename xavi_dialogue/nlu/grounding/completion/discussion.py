@@ -55,6 +55,7 @@ PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
 )  # fmt: skip
 
+_STAYING: Final = ("wait", "keep-lane", "stand")
 UNREAL: Final = ("would", "can", "could", "might")
 
 
@@ -209,6 +210,21 @@ def hindrance(context: Context) -> Event | None:
         near = [e for e in hindered if e.begin <= focus[1] and (e.end or context.now) >= focus[0]]
         hindered = near or hindered
     return None if not hindered else event_of(hindered[-1], context.now)
+
+
+def wished(discourse: Discourse) -> Event | None:
+    """Give what the passenger just wished us to do; None if there was no such wish."""
+    option = discourse.option
+    if option is None or option.action in _STAYING or not discourse.last_acts:
+        return None
+    match discourse.last_acts[-1]:
+        case Request(negated=False):
+            pass
+        case Claim(Happens(Event(actor=Ego(), modal="should" | "must"))):
+            pass
+        case _:
+            return None
+    return replace(option, time=Unsaid(), tense="present", modal=None)
 
 
 def beside_road(context: Context) -> Event | None:

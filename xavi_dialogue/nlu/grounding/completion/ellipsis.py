@@ -59,6 +59,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     of_others,
     proposition_of,
     questioned,
+    wished,
 )
 from xavi_dialogue.nlu.grounding.completion.listed import one_of_listed
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
@@ -124,6 +125,8 @@ def _about_exits(question: Question | None) -> bool:
 
 
 def _why(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
+    if _bare(spoken) and (option := wished(g.context.discourse)) is not None:
+        return Ask(Why(Not(Happens(option))))  # "overtake him!" "why not?"
     of = asserted(g.context) if _bare(spoken) else questioned(g.context)
     if isinstance(spoken.thing, Ego) and (theirs := of_others(g.context)) is not None:
         of = theirs
