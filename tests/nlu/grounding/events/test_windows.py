@@ -30,7 +30,8 @@ from xavi_dialogue.domain.terms import (
     Within,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Window
-from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, window
+from xavi_dialogue.nlu.grounding.events.spans import notable
+from xavi_dialogue.nlu.grounding.events.windows import pointed, window
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 
 NOW, BEGIN = 40.0, 2.0

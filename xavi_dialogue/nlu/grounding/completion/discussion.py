@@ -48,7 +48,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.grounding.context import Context
-from xavi_dialogue.nlu.grounding.events.windows import NOTABLE
+from xavi_dialogue.nlu.grounding.events.spans import NOTABLE
 from xavi_dialogue.nlu.grounding.salience import IN_FORCE
 
 PROPOSITIONS: Final = (

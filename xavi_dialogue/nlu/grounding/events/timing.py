@@ -26,7 +26,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, startling
+from xavi_dialogue.nlu.grounding.events.spans import notable
+from xavi_dialogue.nlu.grounding.events.windows import pointed, startling
 
 
 def over(time: Any, g: Grounder) -> Window:
