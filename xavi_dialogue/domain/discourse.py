@@ -31,6 +31,7 @@ class Discourse(Value, frozen=True):
     last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
     asked_at: float | None = None  # [s] when the last question was asked
     times: tuple[float, ...] = ()  # [s] that the passenger named, latest first
+    moments: tuple[float, ...] = ()  # [s] that the car told on being asked when, latest first
     option: Event | None = None  # an option of ours, discussed as alternative to what was decided
     weighed_at: float | None = None  # [s] of the decision whose options were told last
     decided: Event | None = None  # what was decided instead of that option

@@ -49,10 +49,11 @@ class Between(Value, frozen=True):
 class Back(Value, frozen=True):
     """The time of the episode under discussion, or before or after it: "then", "before that".
 
-    What was "earlier" was before now, whatever is under discussion.
+    What was "earlier" was before now, whatever is under discussion. What was "between" was from
+    one moment that was told to the next: "between those two moments".
     """
 
-    relation: Literal["during", "before", "after", "earlier"] = "during"
+    relation: Literal["during", "before", "after", "earlier", "between"] = "during"
     seconds: float | None = None  # [s] that long before: "two seconds earlier"
 
 

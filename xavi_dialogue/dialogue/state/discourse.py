@@ -12,7 +12,7 @@ from typing import TypeAlias, get_args
 from msgspec.structs import replace
 
 from xavi_dialogue.dialogue.state.assertions import asserted
-from xavi_dialogue.dialogue.state.focus import episode_of, stretch_named
+from xavi_dialogue.dialogue.state.focus import episode_of, moments_told, stretch_named
 from xavi_dialogue.dialogue.state.turn import Turn, kept
 from xavi_dialogue.domain.answers import (
     Answer,
@@ -101,6 +101,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         option=weighed[0],
         decided=weighed[1],
         times=tuple(dict.fromkeys((*new.times, *discourse.times)))[:TIMES],
+        moments=tuple(dict.fromkeys((*new.moments, *discourse.moments)))[:TIMES],
     )
 
 
@@ -126,6 +127,7 @@ class _News:
     weighed: _Weighed | None  # None: as before
     weighed_at: float | None  # None: as before
     times: tuple[float, ...]
+    moments: tuple[float, ...]
 
 
 @kept
@@ -141,6 +143,7 @@ def _news(turn: Turn) -> _News:
         weighed=_weighed(turn),
         weighed_at=next((r.decided for r in turn.results if isinstance(r, Options)), None),
         times=tuple(_times(turn)),
+        moments=moments_told(turn),
     )
 
 

@@ -19,9 +19,10 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import Ask, Changed, Doing, HowMuch, Listing, Peak, Summarise
+from xavi_dialogue.domain.meaning import Ask, Changed, Doing, HowMuch, Listing, Peak, Summarise, When
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Between, Ego, Event, Measured
+from xavi_dialogue.domain.traffic_lights import Shown
 
 SAME: Final = 0.5  # [s] within which a time is now
 LONG: Final = 60.0  # [s] longest episode that "that" or "then" may mean
@@ -37,6 +38,17 @@ def episode_of(turn: Turn) -> tuple[float, float] | None:
         if found is not None and found[1] - found[0] <= LONG:
             return found
     return None
+
+
+def moments_told(turn: Turn) -> tuple[float, ...]:
+    """Return the moments [s] that were told on the question when something was, latest first."""
+    found: list[float] = []
+    for part in turn.parts:
+        asked = None if part.act is None else part.act.act
+        if isinstance(asked, Ask) and isinstance(asked.question, When):
+            told = [one.begin for one in parts(part.result, Episode)]
+            found += told[-1:] or [one.begin for one in parts(part.result, Shown)][-1:]
+    return tuple(reversed(found))
 
 
 def stretch_named(turn: Turn) -> tuple[float, float] | None:

@@ -51,6 +51,7 @@ _ADVERBS: dict[str, Time] = {
     "then": Back("during"),
     "before-that": Back("before"),
     "after-that": Back("after"),
+    "between": Back("between"),
     "start": Start(),
     "whole": WholeRide(),
     "next": Next(),

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.events.anchors import points
 
 Spoken = TypeVar("Spoken", Ask, Claim)
 _SPOKEN: Final = ("it", "he", "she", "that", "this", "one")
@@ -29,7 +30,7 @@ _MEETING: Final = ("pass", "overtake")  # whom, where nobody is said
 def bound(spoken: Spoken, g: Grounder) -> Spoken:
     """Bind the event that a question or claim is timed by to the rest of it."""
     time = first(spoken, Relative)
-    if time is None or not isinstance(time.anchor, Event):
+    if time is None or not isinstance(time.anchor, Event) or points(time.anchor):
         return spoken
     rest = substitute(spoken, time, Unsaid())
     anchor = _done(time.anchor, first(rest, Event))

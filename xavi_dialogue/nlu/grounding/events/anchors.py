@@ -1,6 +1,9 @@
 """Anchors: the part of the ride that a time names by what happened, or by a place."""
 
+from dataclasses import replace
 from typing import Final
+
+from msgspec.structs import replace as with_fields
 
 from xavi_dialogue.domain.terms import (
     Destination,
@@ -9,6 +12,8 @@ from xavi_dialogue.domain.terms import (
     Exit,
     Feature,
     Junction,
+    Pronoun,
+    Rank,
     Relative,
     Road,
     Tense,
@@ -48,10 +53,27 @@ def relative(time: Relative, tense: Tense, g: Grounder) -> Window:
         g.notes.cost += UNFOUND
         g.notes.presupposed = False
         return g.window(Unsaid(), tense)
-    rank = time.rank if time.rank is not None else -1
+    rank = _rank(time)
+    if rank is None and isinstance(time.anchor, Event) and not context.stale:
+        found = _spoken_of(found, g)
+    rank = -1 if rank is None else rank
     index = rank - 1 if rank > 0 else max(len(found) + rank, 0)
     approach = APPROACH if isinstance(time.anchor, Junction | Exit) else 0.0
-    return beside(time.relation, found[min(index, len(found) - 1)], context, approach)
+    there = beside(time.relation, found[min(index, len(found) - 1)], context, approach)
+    return replace(there, whole=time.relation == "during" and points(time.anchor))
+
+
+def points(anchor: object) -> bool:
+    """Tell whether a deed is pointed at as a stretch of time: "during that stop"."""
+    return isinstance(anchor, Event) and anchor.actor in (Pronoun("that"), Pronoun("this"))
+
+
+def _rank(time: Relative) -> int | None:
+    """Give which of several times is named: "when we stopped the first time"."""
+    anchor = time.anchor
+    if time.rank is None and isinstance(anchor, Event) and isinstance(anchor.time, Rank):
+        return anchor.time.rank
+    return time.rank
 
 
 def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...] | None:
@@ -66,6 +88,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return None  # "which way do we go once he moves?"
         case Event(action="leave", actor=Ego(), object=Feature(kind="light") as light):
             return _anchored(Relative(time.relation, light), tense, g)
+        case Event() as event if points(event):
+            return _of_event(with_fields(event, actor=Ego(), tense="past"), "past", g)
         case Event() as event:
             return _of_event(event, tense, g)
         case Road(which="side") | Junction() | Exit() | Feature(kind="line") if tense in (
@@ -99,6 +123,14 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
                 return None  # "once the orange car is past"
             present = presence(g.context, found) if isinstance(found, Vehicle) else None
             return () if present is None else (present,)
+
+
+def _spoken_of(found: tuple[Interval, ...], g: Grounder) -> tuple[Interval, ...]:
+    """Keep those of several deeds that were spoken of; all if none were."""
+    spoken = focus(g.context.discourse)
+    if spoken is None:
+        return found
+    return tuple(i for i in found if i[0] <= spoken[1] and i[1] >= spoken[0]) or found
 
 
 def _of_ours(g: Grounder) -> tuple[Interval, ...]:

@@ -83,6 +83,8 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
         case Back(relation="earlier"):
             end = max(begin, now - BEFORE)
             return Window(begin, end, Unsaid(), (begin, end), True)
+        case Back(relation="between"):
+            return _in_between(tense, g)
         case Back(relation=relation):
             return _back(relation, g)
         case Rank(rank=rank):
@@ -159,6 +161,15 @@ def _back(relation: str, g: Grounder) -> Window:
         return unsaid("past", context)
     whole = relation == "during" and interval == context.discourse.stretch
     return replace(beside(relation, interval, context), whole=whole)
+
+
+def _in_between(tense: Tense, g: Grounder) -> Window:
+    """Take what lies between the two moments that were told last."""
+    told = sorted(g.context.discourse.moments[:2])
+    g.notes.leaned = True
+    if len(told) < 2:
+        return unsaid(tense, g.context)
+    return replace(between(told[0], told[1], g.context.now), whole=True)
 
 
 def startling(context: Context) -> Event | None:
