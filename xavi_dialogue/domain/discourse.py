@@ -2,7 +2,7 @@
 
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.meaning import Act, Question
-from xavi_dialogue.domain.terms import Ego, Event, Proposition, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Ego, Event, Junction, Proposition, Thing, Vehicle, Vehicles
 
 
 class Mention(Value, frozen=True):
@@ -31,6 +31,7 @@ class Discourse(Value, frozen=True):
     last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
     asked_at: float | None = None  # [s] when the last question was asked
     times: tuple[float, ...] = ()  # [s] that the passenger named, latest first
+    anchor: Event | Junction | None = None  # one of several that timed the last question
     moments: tuple[float, ...] = ()  # [s] that the car told on being asked when, latest first
     option: Event | None = None  # an option of ours, discussed as alternative to what was decided
     weighed_at: float | None = None  # [s] of the decision whose options were told last
@@ -56,4 +57,5 @@ class GroundedAct(Value, frozen=True):
     doubts: tuple[str, ...] = ()  # words that were not understood; the answer has to say so
     strange: tuple[str, ...] = ()  # those of them that are in no vocabulary
     presupposed: bool = True  # its presuppositions hold, as far as could be checked
+    anchor: Event | Junction | None = None  # one of several by which its time was told
     listed: Span | None = None  # it is one of several that were asked for, of that part of the ride

@@ -47,6 +47,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Happens,
     Is,
+    Junction,
     Not,
     Now,
     Proposition,
@@ -100,6 +101,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         weighed_at=discourse.weighed_at if new.weighed_at is None else new.weighed_at,
         option=weighed[0],
         decided=weighed[1],
+        anchor=new.anchor if new.question is not None else discourse.anchor,
         times=tuple(dict.fromkeys((*new.times, *discourse.times)))[:TIMES],
         moments=tuple(dict.fromkeys((*new.moments, *discourse.moments)))[:TIMES],
     )
@@ -126,6 +128,7 @@ class _News:
     stretch: tuple[float, float] | None
     weighed: _Weighed | None  # None: as before
     weighed_at: float | None  # None: as before
+    anchor: Event | Junction | None
     times: tuple[float, ...]
     moments: tuple[float, ...]
 
@@ -142,6 +145,7 @@ def _news(turn: Turn) -> _News:
         stretch=stretch_named(turn),
         weighed=_weighed(turn),
         weighed_at=next((r.decided for r in turn.results if isinstance(r, Options)), None),
+        anchor=next((a.anchor for a in reversed(turn.acts) if a.anchor is not None), None),
         times=tuple(_times(turn)),
         moments=moments_told(turn),
     )

@@ -19,7 +19,16 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import Ask, Changed, Doing, HowMuch, Listing, Peak, Summarise, When
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    Changed,
+    Doing,
+    HowMuch,
+    Listing,
+    Peak,
+    Summarise,
+    When,
+)
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Between, Ego, Event, Measured
 from xavi_dialogue.domain.traffic_lights import Shown

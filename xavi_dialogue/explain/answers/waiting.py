@@ -24,6 +24,7 @@ from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.answers.ride.delays import let_past
 from xavi_dialogue.explain.facts.looks import STILL
 
+YIELDED: Final = frozenset[ActionName](("give-way", "let-go"))
 STANDING: Final = frozenset[ActionName](("stop", "stand", "wait"))
 
 
@@ -35,7 +36,8 @@ def what_for(question: Which, scene: Asked) -> Answer:
     """
     event = _deed(question.such)
     several = let_past(event, scene)
-    if len(several) > 1:
+    least = 1 if event.action in YIELDED and event.tense != "present" else 2
+    if len(several) >= least:
         return Identified(several, question.such)
     alone = replace(event, object=None)
     if event.action not in STANDING or event.tense != "present":

@@ -45,6 +45,7 @@ from xavi_dialogue.nlu.grounding import clarify, doubts, quoting
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
 from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
+from xavi_dialogue.nlu.grounding.completion.ranking import anchor_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
 from xavi_dialogue.nlu.grounding.events.holding import holder
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
@@ -199,6 +200,7 @@ def _part(reading: Reading, index: int, judged: doubts.Doubts, context: Context)
         doubts=quoting.phrases(reading, index, left),
         strange=tuple(word for word in left if word in reading.strange),
         presupposed=notes.presupposed,
+        anchor=anchor_of(complete),
     )
     quote = quoting.words_of(reading, index)
     return Part(done, complete or spoken, notes, context, failure, quote)

@@ -143,6 +143,8 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             return Summarise(Ego(), time)
         case Exit():
             return HowMuch(Measured("exit-number", time=time))
+        case Pronoun(form="it" | "that") as it if tense == "past" and not isinstance(time, Unsaid):
+            return HowMuch(Measured("value", it, time=time, tense="past"))  # "what was it then?"
         case Lane() | Road():
             return Where(sem, time)
         case _:

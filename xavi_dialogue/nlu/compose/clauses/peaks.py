@@ -10,6 +10,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Measured,
     Pronoun,
     Quantity,
@@ -160,7 +161,8 @@ def braked_most(sem: Sem | None, extreme: str | None) -> str:
 
 def deed_asked(clause: Clause, sem: Sem, words: tuple[str, ...]) -> Peak | None:
     """Read "which turn was the tightest", "which lane change did you make fastest"."""
-    deed = Event("turn") if _CURVES.intersection(words) else sem
+    bent = isinstance(sem, Feature) and sem.kind == "bend"
+    deed = Event("turn") if bent or _CURVES.intersection(words) else sem
     if not isinstance(deed, Event):
         return None
     said = (leaf.key for _, node in clause.objects for leaf in leaves_of(node))

@@ -202,7 +202,8 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     if head.key == "circle-shape":
         return Junction("roundabout")
     theirs = head.key == "way" and not isinstance(owner, Ego | Passenger)
-    return Feature(cast(Any, head.key), of=owner if theirs else None)
+    turned = traits.ordinal if head.key == "bend" else None
+    return Feature(cast(Any, head.key), rank=turned, of=owner if theirs else None)
 
 
 def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lane:

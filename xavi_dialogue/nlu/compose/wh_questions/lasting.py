@@ -19,10 +19,12 @@ from xavi_dialogue.domain.terms import (
     Not,
     Passenger,
     Pronoun,
+    Rank,
     Related,
     Relative,
     That,
     Thing,
+    Time,
     Unknown,
     Unsaid,
     Vehicle,
@@ -74,6 +76,7 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     timed_by(clause)
     time = more.pop("time", clause.time)
     time = clause.time if isinstance(time, Unsaid) else time
+    time = _at_place(clause) if isinstance(time, Unsaid) else time
     if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
         thing = _postponed(clause)
     thing = (blamed_for(clause) if attribute == "delay" else None) or thing
@@ -99,6 +102,14 @@ def is_aimed(clause: Clause, actor: Thing | None) -> bool:
     ours = isinstance(actor, Ego) and clause.tense == "present" and clause.modal in (None, "want")
     aims = clause.verb is not None and clause.verb.key in _AIMING
     return ours and (aims or "semi-want" in clause.aux)
+
+
+def _at_place(clause: Clause) -> Time:
+    """Take "at the second junction" for the time at which we were there."""
+    past = clause.tense == "past"
+    places = (c.sem for c in clause.complements if past and c.key in ("at", "in"))
+    place = next((sem for sem in places if isinstance(sem, Junction)), None)
+    return Unsaid() if place is None else Relative("during", place)
 
 
 def _is_deed(thing: Thing) -> bool:
@@ -161,7 +172,9 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
     if event.action in DRIVING:
         return clause.time
     if event.action == "head" and isinstance(event.object, Feature):
-        event = Event("turn", event.actor, tense=event.tense)  # "take the bend"
+        which = event.object.rank
+        which_time: Time = Unsaid() if which is None else Rank(which)
+        event = Event("turn", event.actor, time=which_time, tense=event.tense)  # "take the bend"
     if event.action == "head":
         return clause.time
     return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)

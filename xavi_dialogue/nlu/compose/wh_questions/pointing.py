@@ -29,8 +29,9 @@ def pointed(wh: Wh, clause: Clause) -> Question | None:
     """Ask for what stands out, "where did you brake hardest?"; or "who was that for?"."""
     if wh.kind == "when" and (nearest := nearest_of(clause)) is not None:
         return nearest
-    if wh.sem is not None and (deed := deed_asked(clause, wh.sem, wh.words)) is not None:
-        return deed
+    for sem in (wh.sem, wh.of):  # "which bend was the sharpest", "which of the bends was"
+        if sem is not None and (deed := deed_asked(clause, sem, wh.words)) is not None:
+            return deed
     most = peak_of(clause)
     if most is not None and any(map(is_choice, (wh.of, wh.sem, clause.subject))):
         return rivals(clause)  # "which of the other options came closest"
@@ -63,6 +64,10 @@ def as_said(subject: Sem, clause: Clause) -> Sem:
     stands = any(key == "stationary" for key, _ in clause.adjectives)
     if stands and subject.doing is None:
         subject = replace(subject, doing=Event("stand", Wanted(), tense="present"))
+    if subject.rank is not None and subject.doing is None and clause.infinitive is not None:
+        done = clause.inner  # "the first one to cross"
+        to = None if done is None else replace(done, actor=Wanted(), tense="past")
+        subject = replace(subject, doing=to)
     there = next((key for key, _ in clause.bearings if key in get_args(Bearing)), None)
     if there is None or subject.bearing is not None:
         return subject

@@ -43,6 +43,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     That,
     Thing,
+    Time,
     Unsaid,
     WholeRide,
 )
@@ -92,6 +93,8 @@ def recast(spoken: Question, g: Grounder) -> Question:
     match spoken:
         case Doing():
             return of_doing(spoken, g)
+        case HowMuch(of=Measured("value", Pronoun("it" | "that") as it, about=None, time=time)):
+            return _as_it_was(it, time, g)
         case Identify(thing=Pronoun(form="it")) if (known := _own_measure(g.context)) is not None:
             g.notes.leaned = True
             return known
@@ -127,6 +130,16 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case Compare(options=options):
             return compared(spoken, options, g)
     return spoken
+
+
+def _as_it_was(it: Thing, time: Time, g: Grounder) -> Question:
+    """Ask "what was it two seconds ago?" of the measure under discussion, else who it was."""
+    asked = g.context.discourse.question
+    if not isinstance(asked, HowMuch):
+        return Doing(it, time, "past")
+    g.notes.leaned = True
+    then = replace(asked.of, time=time, tense="past")
+    return HowMuch(then, asked.extreme)
 
 
 def _of_light(spoken: Question) -> Question | None:

@@ -63,6 +63,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.listed import one_of_listed
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
+from xavi_dialogue.nlu.grounding.completion.ranking import ranked
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.showing import anew, showing
 from xavi_dialogue.nlu.grounding.completion.sides import at_place, lane_or_turn, on_a_side
@@ -76,7 +77,8 @@ def complete(spoken: Elliptic, g: Grounder) -> Act | None:
     """Complete a fragment to the act that it is short for; None where nothing completes it."""
     question = under_discussion(g)
     time = Back("before") if spoken.time == Back("earlier") else spoken.time  # "and earlier?"
-    spoken = replace(spoken, thing=_typed(spoken.thing, question), time=time)
+    spoken = ranked(replace(spoken, time=time), g)
+    spoken = replace(spoken, thing=_typed(spoken.thing, question))
     if (one := one_of_listed(spoken, g)) is not None and one.event is not None:
         done = Happens(one.event)
         return Ask(Why(done) if spoken.form == "why" else When(done))
