@@ -8,8 +8,10 @@ from xavi_dialogue.domain.terms import (
     Described,
     Event,
     Happens,
+    Junction,
     Pronoun,
     Proposition,
+    Related,
     Thing,
     Wanted,
 )
@@ -75,6 +77,8 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
         elif key == "with" and isinstance(sem, Measure) and sem.of.attribute in LIGHTS:
             lit = LIGHTS[sem.of.attribute]  # "the one with the blinker on"
             fields.setdefault("doing", Event(lit, Wanted(), tense="present"))
+        elif key == "at" and isinstance(sem, Junction) and sem.rank is not None:
+            fields.setdefault("such", Related("on", Wanted(cast(Any, kind)), sem))
     standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
     for adjective in traits.adjectives:
         if adjective in standing:

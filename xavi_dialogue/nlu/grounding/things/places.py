@@ -8,9 +8,10 @@ from msgspec.structs import replace
 from planner.record.places import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Junction, Lane, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Junction, Lane, Vehicle
 from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
 
+LEAD: Final = 15.0  # [s] before a junction in which somebody crosses there
 APART: Final = 4.0  # [s] between episodes at two different places
 STILL: Final = 0.5  # [s] for which we count as being at a place that we have just left
 BEHIND: Final = 3.0  # [s] before now, from which on a window counts as past
@@ -44,6 +45,17 @@ def visits(context: Context, form: str | None = None) -> tuple[Visit, ...]:
     return tuple(found)
 
 
+def crossings(context: Context) -> tuple[Visit, ...]:
+    """List the junctions and the other places at which we let somebody cross, by time."""
+    found = list(visits(context))
+    for episode in context.holds(Event("let-go"), context.begin, context.now):
+        end = context.now if episode.end is None else episode.end
+        near = (v for v in found if v.begin - LEAD <= end and episode.begin <= v.end)
+        if next(near, None) is None:
+            found.append(Visit(Junction(time=episode.begin), episode.begin, end))
+    return tuple(sorted(found, key=lambda visit: visit.begin))
+
+
 def replace_end(visit: Visit, end: float) -> Visit:
     """Give a visit another end."""
     return Visit(visit.junction, visit.begin, end)
@@ -63,7 +75,8 @@ def visit_of(context: Context, junction: Junction) -> Visit | None:
     if junction.time is None:
         return None
     at = junction.time
-    return next((v for v in visits(context) if v.begin - 0.1 <= at <= v.end + 0.1), None)
+    known = (*visits(context), *crossings(context))
+    return next((v for v in known if v.begin - 0.1 <= at <= v.end + 0.1), None)
 
 
 def junction(thing: Junction, g: Grounder, window: Window) -> Junction:
@@ -85,6 +98,8 @@ def junction(thing: Junction, g: Grounder, window: Window) -> Junction:
         earlier = [v for v in behind if v.begin <= window.end + APART]
         return replace(thing, time=(earlier or list(behind))[-1].begin)
     if thing.rank is not None and past and behind:  # "the first one" of the ride so far
+        if thing.rank > len(behind) and thing.rank <= len(places := crossings(g.context)):
+            return replace(thing, time=places[thing.rank - 1].begin)  # "the second crossing"
         if thing.rank > len(behind):
             g.notes.cost += NOWHERE
             return thing

@@ -1,5 +1,6 @@
 """Resolve: one thing as spoken to one thing as grounded, by its sort."""
 
+from dataclasses import replace as fields
 from typing import Final
 
 from msgspec.structs import replace
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Passenger,
     Pronoun,
+    Related,
     Thing,
     Together,
     Unknown,
@@ -26,6 +28,7 @@ from xavi_dialogue.nlu.grounding.things.descriptions import KNOWN, MISSING, desc
 from xavi_dialogue.nlu.grounding.things.pronouns import pronoun
 from xavi_dialogue.nlu.grounding.things.scene import nearest
 
+BEFORE: Final = 4.0  # [s] before a junction that belong to it
 UNKNOWN: Final = 1.5  # cost of a reading that speaks of what has no sense here
 
 
@@ -38,6 +41,9 @@ def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None)
             return Ego()
         case Vehicle() | Vehicles():
             return _numbered(thing, g, window)
+        case Described(such=Related("on", Wanted(), Junction(rank=int(), time=None) as place)):
+            there = _when_at(place, g, window)
+            return described(replace(thing, such=None), g, there, fits)
         case Described():
             return described(thing, g, window, fits)
         case Together(members=members):
@@ -57,6 +63,15 @@ def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None)
             g.notes.unknown.append(words)
             g.notes.cost += UNKNOWN
     return thing
+
+
+def _when_at(place: Junction, g: Grounder, window: Window) -> Window:
+    """Take the time at which we were at a junction for the one of whom was there then."""
+    found = places.junction(place, g, window)
+    visit = places.visit_of(g.context, found)
+    if visit is None:
+        return window
+    return fields(window, begin=max(visit.begin - BEFORE, g.context.begin), end=visit.end)
 
 
 def _together(found: tuple[Thing, ...], thing: Thing) -> Thing:
