@@ -75,7 +75,6 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     extreme = more.pop("extreme", None)
     timed_by(clause)
     time = more.pop("time", clause.time)
-    time = clause.time if isinstance(time, Unsaid) else time
     time = _at_place(clause) if isinstance(time, Unsaid) else time
     if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
         thing = _postponed(clause)
@@ -106,10 +105,10 @@ def is_aimed(clause: Clause, actor: Thing | None) -> bool:
 
 def _at_place(clause: Clause) -> Time:
     """Take "at the second junction" for the time at which we were there."""
-    past = clause.tense == "past"
-    places = (c.sem for c in clause.complements if past and c.key in ("at", "in"))
-    place = next((sem for sem in places if isinstance(sem, Junction)), None)
-    return Unsaid() if place is None else Relative("during", place)
+    untimed = clause.tense == "past" and isinstance(clause.time, Unsaid)
+    places = (c.sem for c in clause.complements if untimed and c.key in ("at", "in"))
+    found = (Relative("during", place) for place in places if isinstance(place, Junction))
+    return next(found, clause.time)
 
 
 def _is_deed(thing: Thing) -> bool:
@@ -169,13 +168,10 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
         return Relative("during", through)
     if event.action in DRIVING and _round(clause) and isinstance(clause.time, Unsaid):
         return Relative("during", Event("turn", event.actor, tense=event.tense))
-    if event.action in DRIVING:
-        return clause.time
     if event.action == "head" and isinstance(event.object, Feature):
-        which = event.object.rank
-        which_time: Time = Unsaid() if which is None else Rank(which)
-        event = Event("turn", event.actor, time=which_time, tense=event.tense)  # "take the bend"
-    if event.action == "head":
+        time: Time = Unsaid() if event.object.rank is None else Rank(event.object.rank)
+        event = Event("turn", event.actor, time=time, tense=event.tense)  # "take the bend"
+    if event.action == "head" or event.action in DRIVING:
         return clause.time
     return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)
 

@@ -62,6 +62,8 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return between(max(begin, now - JUST_NOW), now, now)
         case Ago(seconds=float() as back, span=True):
             return replace(between(max(begin, now - back), now, now), whole=True)
+        case Ago(seconds=float(), span=False) if now == begin:
+            return unsaid("past", context)  # the ride has only just begun
         case Ago(seconds=float() as back):
             return _at(now - back, now)
         case AtDecision(number=number, last=last):
