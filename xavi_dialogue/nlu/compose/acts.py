@@ -50,6 +50,7 @@ from xavi_dialogue.nlu.compose.propositions.severally import apart, asked_each, 
 from xavi_dialogue.nlu.compose.propositions.tally import among
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.refining.asked import sought
+from xavi_dialogue.nlu.compose.refining.counts import counted_each
 from xavi_dialogue.nlu.compose.refining.told import lit_now, only_one, refined_whether
 from xavi_dialogue.nlu.compose.refining.waits import waits_compared
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
@@ -136,6 +137,8 @@ class Composer(Statements):
         if (also := node_of(unit, "also_wh")) is not None:
             return self._ask_both(unit, wh_node, also)
         wh = self.questions.wh_of(wh_node)
+        if counts := counted_each(wh, lambda one: self.questions.asked(one, parts, Clause())):
+            return counts
         clause = Clause()
         found = self.questions.asked(wh, parts, clause)
         bare = clause.verb is None and not clause.aux and isinstance(clause.subject, Measure)

@@ -201,11 +201,13 @@ def _compares(that: Compares, now: float, negated: bool, tense: Tense | None) ->
     if left.attribute == "speed" and _limit(that.right):
         words = _LIMITS.get(that.comparator, "at the speed limit")
         return Clause(owner, "be", (*by, words), told, negated=negated)
-    if left.attribute == "speed" and not isinstance(that.right, Quantity):
+    beyond = that.comparator in ("more", "less") or not isinstance(that.right, Quantity)
+    if left.attribute == "speed" and beyond:
         return Clause(owner, "be", (*by, _FAST[that.comparator], *right), told, negated=negated)
     if left.attribute == "speed" and that.comparator == "same":
         return Clause(owner, "do", right, told, True, negated=negated)
-    if left.attribute in ("distance", "gap") and isinstance(left.to, Ego):
+    to_us = isinstance(left.to, Ego) or (left.to is None and not isinstance(left.thing, Ego))
+    if left.attribute in ("distance", "gap") and to_us:
         subject = Who(left.thing, at, placed=False, ride=True)
         return Clause(subject, "be", (*by, _FAR[that.comparator], *right), told, negated=negated)
     noun = word("doings", "attribute", left.attribute)

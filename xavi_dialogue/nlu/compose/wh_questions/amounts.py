@@ -171,6 +171,8 @@ def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
         return of
     if isinstance(value, Special):
         value = proposition_of(value)
+    if isinstance(value, Related | Is) and _is_in_view(value):
+        value = None
     if of.among is not None and (kinds := _kinds(value)) is not None:
         of = structs.replace(kinds, among=of.among)
     elif isinstance(value, Happens):
@@ -178,6 +180,16 @@ def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
     elif value is not None and not isinstance(value, That):
         of = structs.replace(of, such=value)
     return structs.replace(of, plural=True, definite=False)
+
+
+def _is_in_view(value: Related | Is) -> bool:
+    """Say whether it is said of those that are counted just that they are seen, as all are."""
+    match value:
+        case Related(relation="can-see", thing=Ego(), to=Wanted(), tense="present"):
+            return True
+        case Is(state="visible", thing=Wanted(), tense="present"):
+            return True
+    return False
 
 
 def _kinds(value: Any) -> Described | None:

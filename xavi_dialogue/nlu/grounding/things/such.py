@@ -17,15 +17,18 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Junction,
+    Measured,
     Not,
     Now,
     Pronoun,
     Proposition,
+    Quantity,
     Related,
     Thing,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 from xavi_dialogue.nlu.grounding.things import looks
@@ -81,7 +84,7 @@ class Condition:
             case Exists(thing=Vehicle(number=number)):
                 return number in context.in_view(at)
             case Compares(left=left, comparator="more" | "less" as comparator, right=right):
-                return self._faster(left, right, comparator)
+                return self._compared(left, right, comparator)
         return None
 
     def _walks(self, number: int) -> bool:
@@ -125,16 +128,32 @@ class Condition:
                 return look.distance > looks.FAR
         return None
 
-    def _faster(self, left: object, right: object, comparator: str) -> bool | None:
-        things = [getattr(one, "thing", None) for one in (left, right)]
-        if getattr(left, "attribute", "") != "speed" or None in things:
+    def _compared(self, left: Measured, right: object, comparator: str) -> bool | None:
+        """Tell whether a speed or distance is more, or less, than another or than a value."""
+        if left.attribute not in ("speed", "distance"):
             return None
-        relation = "faster-than" if comparator == "more" else "slower-than"
-        context, world = self.grounder.context, self.grounder.context.world
-        seen = (Ego(), *(Vehicle(number) for number in context.in_view(self.moment)))
-        if any(thing not in seen for thing in things):
+        context, at = self.grounder.context, self.moment
+        seen = (Ego(), *(Vehicle(number) for number in context.in_view(at)))
+        named = [one.thing for one in (left, right) if isinstance(one, Measured)]
+        if any(thing not in seen for thing in named):
             return False  # of nobody who is out of view
-        return world.relation(relation, things[0], things[1], self.moment)  # type: ignore[arg-type]
+        if left.attribute == "speed" and isinstance(right, Measured):
+            relation: Relation = "faster-than" if comparator == "more" else "slower-than"
+            return context.world.relation(relation, left.thing, right.thing, at)
+        one, other = self._value(left), self._value(right)
+        if one is None or other is None:
+            return None
+        return one > other if comparator == "more" else one < other
+
+    def _value(self, of: object) -> float | None:
+        match of:
+            case Quantity(value=value):
+                return value
+            case Measured(attribute=attribute, thing=Vehicle(number=number)):
+                look = self.grounder.context.look(number, self.moment)
+                if look is not None:
+                    return look.speed if attribute == "speed" else look.distance
+        return None
 
 
 def condition_of(such: Proposition, g: Grounder, window: Window, moment: float) -> Condition:
