@@ -44,6 +44,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure
+from xavi_dialogue.nlu.compose.refining.distances import distance_asked
 from xavi_dialogue.nlu.compose.refining.setting_off import Propose, set_off_late
 from xavi_dialogue.nlu.compose.refining.sounds import sound_asked
 from xavi_dialogue.nlu.compose.refining.turns import turns_asked
@@ -66,7 +67,8 @@ def refined(wh: Wh, clause: Clause, question: Question, propose: Propose) -> Que
         or _of_lights(clause, question)
         or _waited_for(clause, question)
     )
-    return found or set_off_late(clause, question, propose) or _used(clause, question) or question
+    found = found or set_off_late(clause, question, propose) or _used(clause, question)
+    return distance_asked(clause, found or question)
 
 
 def _superlative(wh: Wh, clause: Clause, question: Question) -> Question | None:
