@@ -17,6 +17,7 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.terms import Ego, Event, Lane, Now, Vehicle
 from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE, ActionName
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
     STARTS,
@@ -29,7 +30,6 @@ from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahea
 from xavi_dialogue.explain.answers.expectations.slowing import speed_ahead
 from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.measuring.nearing import past_leader
-from xavi_dialogue.explain.answers.propositions.happenings import activity
 from xavi_dialogue.explain.answers.reasons import choices, motions, refraining
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import known

@@ -20,9 +20,9 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import FeelingKind
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.measuring.closeness import closeness, nearest_vehicle
 from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
-from xavi_dialogue.explain.answers.propositions.happenings import activity
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import known
 from xavi_dialogue.explain.answers.reference.moments import RECENT, Window, window

@@ -25,6 +25,8 @@ from xavi_dialogue.explain.answers.ride.delays import let_past
 from xavi_dialogue.explain.facts.looks import STILL
 
 YIELDED: Final = frozenset[ActionName](("give-way", "let-go"))
+#: What of the road makes us slow down, as kinds of reasons.
+ROADS: Final = ("turn", "bend", "roundabout", "give-way-line", "hidden", "lane-end", "limit")
 STANDING: Final = frozenset[ActionName](("stop", "stand", "wait"))
 
 
@@ -45,7 +47,8 @@ def what_for(question: Which, scene: Asked) -> Answer:
     moves = _moves(scene)
     held = Is("slow", Ego(), time=Now(), tense="present")
     found = reasons.why(Why(held if moves else Not(Happens(Event("go", tense="present")))), scene)
-    if moves and isinstance(found, MotionReason) and not any(map(_holds, found.causes)):
+    freely = isinstance(found, MotionReason) and not any(map(_holds, found.causes))
+    if moves and freely and not (_slows(question.such) and _by_road(found)):
         waits = Event("wait", Ego(), Wanted(), tense="present")
         speed = scene.world.measure("speed", Ego(), scene.now)
         return Identified((), Happens(waits), (speed,), none=True)
@@ -55,6 +58,17 @@ def what_for(question: Which, scene: Asked) -> Answer:
 def _holds(cause: MotionCause) -> bool:
     """Check whether a reason is somebody, or a traffic light."""
     return cause.vehicle is not None or cause.shown is not None
+
+
+def _slows(such: Proposition | None) -> bool:
+    """Check whether it is asked what slows us or holds us back, and not whom we wait for."""
+    of, _ = unwrapped(such)
+    return isinstance(of, Compares) or (isinstance(of, Happens) and of.event.action == "block")
+
+
+def _by_road(found: Answer) -> bool:
+    """Check whether the road makes us slow."""
+    return isinstance(found, MotionReason) and any(one.kind in ROADS for one in found.causes)
 
 
 def _deed(such: Proposition | None) -> Event:

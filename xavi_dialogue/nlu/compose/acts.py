@@ -27,7 +27,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.affairs import of_affairs, why_not
-from xavi_dialogue.nlu.compose.alternatives.blames import blamed_for
+from xavi_dialogue.nlu.compose.alternatives.blames import blamed_for, causes_of
 from xavi_dialogue.nlu.compose.alternatives.choosing import options_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
@@ -71,7 +71,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
 NOTHING = 2.5  # cost of a unit that cannot be read
-NAMED_FIRST = 0.4  # cost of alternatives that are named first, before the question which of them
+NAMED = {"topic": 0.4, "apposed": 0.6}  # cost of alternatives beside the question which of them
 SHORT = 0.5  # cost of "if you had" before an order
 _COURTEOUS = frozenset({"PLEASE", "TAGWORD"})
 _PROPOSING = frozenset({("maybe",), ("perhaps",)})
@@ -272,8 +272,8 @@ class Composer(Statements):
         if leaf_of(unit, "TALLY"):
             counted = among(sem, named[0])
             return [] if counted is None else [((Claim(counted),), 0.0)]
-        if unit.name == "topic" and (options := options_of(sem)) is not None:
-            return [((Elliptic(Together(options), form="which"),), NAMED_FIRST)]
+        if (options := options_of(sem) if unit.name == "topic" else causes_of(sem)) is not None:
+            return [((Elliptic(Together(options), form="which"),), NAMED[unit.name])]
         thing = as_thing(sem)
         told = isinstance(thing, Described | Vehicle)
         if unit.name == "apposed" and isinstance(sem, Group):

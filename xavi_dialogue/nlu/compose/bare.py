@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
+from xavi_dialogue.nlu.compose.alternatives.blames import blaming, causes_taken
 from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_lane, as_thing
@@ -62,7 +63,9 @@ class BareQuestions(Suppositions):
         wh = self.composer.questions.wh_of(wh_node)
         clause = self.phrases.slots.fill(tuple(parts))
         if wh.kind == "why":
-            return self._bare_why(clause, parts)
+            causes = causes_taken(clause.bare or clause, self.composer.notes)
+            found = self._bare_why(clause, parts)
+            return [(tuple(_blaming(act, causes) for act in acts), cost) for acts, cost in found]
         if wh.key == "much" and _words(unit) <= _AMOUNT:
             return [((Elliptic(form="how-much"),), 0.05)]
         if wh.kind in ("grade", "count", "evidence"):
@@ -205,6 +208,10 @@ class BareQuestions(Suppositions):
         for phrase in clause.complements if isinstance(sem, Described) else ():
             sem = adopted(sem, phrase) or sem  # "the one in the left lane"
         return as_thing(sem) or as_lane(sem), None
+
+
+def _blaming(act: Act, causes: tuple[Thing, ...]) -> Act:
+    return Ask(blaming(act.question, causes)) if isinstance(act, Ask) else act
 
 
 def _still(wh: Wh, clause: Clause) -> bool:

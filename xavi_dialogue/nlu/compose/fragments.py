@@ -29,10 +29,11 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     That,
     Thing,
+    Together,
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.compose.alternatives.blames import whom_of
+from xavi_dialogue.nlu.compose.alternatives.blames import causes_named, whom_of
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
 from xavi_dialogue.nlu.compose.clauses.adoption import adopted
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -59,6 +60,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _ANY = frozenset({"any", "anybody", "anyone", "anything"})
 _THINGS = frozenset({"something", "anything", "another"})
+_CAUSES = 0.4  # cost of naming causes alone: "for the bus or for the turn?"
 _TURNING = frozenset({"turn", "exit-left", "exit-right"})
 _STYLE = {
     "simpl": "simpler",
@@ -182,6 +184,9 @@ class Fragments(BareQuestions):
                 clause.side = other
             else:
                 clause.objects.append((other, unit))
+        if clause.verb is None and (causes := causes_named(clause)) is not None:
+            self.composer.notes.taken.update(id(other) for _, other in clause.chained)
+            return [((Elliptic(Together(causes), form="which"),), _CAUSES)]
         thing, event = self._contents(clause)
         if event is None and clause.side is not None and not clause.skipped:
             event = sided(clause.side)

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     That,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.alternatives.blames import blaming, causes_taken
 from xavi_dialogue.nlu.compose.alternatives.options import WEAK, Options, alternatives, several_of
 from xavi_dialogue.nlu.compose.alternatives.simulated import simulated
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, wanted_pronoun
@@ -66,12 +67,10 @@ class Questions(Options):
         preposition = leaf_of(node, "P")
         key = preposition.key if preposition else ""
         besides = leaf_of(node, "ELSE") is not None
-        if kind == "where":
-            where = leaf_of(node, "WHERE")
-            return Wh("where", where.key if where else "", preposition=key)
-        if kind == "when":
-            moment = leaf_of(node, "WHEN")
-            return Wh("when", moment.key if moment else "", preposition=key, besides=besides)
+        if kind in ("where", "when"):
+            leaf = leaf_of(node, kind.upper())
+            besides &= kind == "when"
+            return Wh(kind, leaf.key if leaf else "", preposition=key, besides=besides)
         if kind in ("grade", "count"):
             grade = leaf_of(node, "GRADE") or leaf_of(node, "AMOUNT")
             words = grade.words if grade else ()
@@ -128,14 +127,13 @@ class Questions(Options):
 
     def gap_of(self, wh: Wh) -> Sem | None:
         """Give what a question word leaves open in its clause."""
-        if wh.kind in ("what", "who", "whose"):
-            return Wanted()
+        factor = isinstance(wh.sem, Noun) and wh.sem.key == "factor"
+        if wh.kind in ("what", "who", "whose") or factor:
+            return Wanted()  # "which constraint limits our speed?": what does
         if wh.kind in ("which", "count") and isinstance(wh.sem, (Measure, Noun, Moment, Quantity)):
             return wh.sem
-        if wh.kind in ("which", "count"):
-            kind = wh.sem.kind if isinstance(wh.sem, Described) else "vehicle"
-            return Wanted(kind)
-        return None
+        kind = wh.sem.kind if isinstance(wh.sem, Described) else "vehicle"
+        return Wanted(kind) if wh.kind in ("which", "count") else None
 
     # --- clauses that ask --------------------------------------------
 
@@ -168,7 +166,9 @@ class Questions(Options):
         if (held := behind_what(clause)) is not None:
             return [(self.asking.ask(wh, *held), WHOLE)]
         plain = self.propositions.plain
-        return [(refined(wh, clause, q, plain), cost) for q, cost in self.of(wh, clause)]
+        causes = causes_taken(clause, self.notes) if wh.kind == "why" else ()
+        found = [(refined(wh, clause, q, plain), cost) for q, cost in self.of(wh, clause)]
+        return [(blaming(question, causes), cost) for question, cost in found]
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
@@ -221,7 +221,7 @@ class Questions(Options):
             return [self.one_of(wh, clause, options)]
         candidates = self.propositions.readings(clause)
         pairs: list[tuple[Any, float]] = [(c.value, c.cost) for c in candidates] or [(None, 0.0)]
-        found: list[tuple[Question, float]] = []
+        found = []
         for value, cost in pairs:
             compared = simulated(wh, clause, value) or self.compared(wh, clause, value)
             question = compared or _among(wh, self.asking.ask(wh, clause, value))

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Is,
+    Junction,
     Not,
     Pronoun,
     Proposition,
@@ -37,7 +38,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.alternatives.choosing import compared_by, of_the_same
-from xavi_dialogue.nlu.compose.alternatives.polar import way_asked
+from xavi_dialogue.nlu.compose.alternatives.ways import way_asked
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -49,13 +50,15 @@ Rows = Sequence[tuple[tuple[Act, ...], float]]
 
 def chosen_between(units: Sequence[Node], rows: Rows) -> list[tuple[Act, ...] | None]:
     """Give the acts of each unit; None where they went into the question before it."""
-    found: list[tuple[Act, ...] | None] = [acts for acts, _ in rows]
+    found: list[tuple[Act, ...] | None] = _paired(units, [acts for acts, _ in rows])
     last = 0
     for index in range(1, len(found)):
         first, later = found[last] or (), found[index] or ()
         asked: Question | None = None
         if len(later) == 1 and first and _is_other(units[index]):
             asked = _either(first[-1], later[0])
+        elif len(later) == 1 and first and isinstance(later[0], Elliptic):
+            asked = _listed(first[-1], later[0])
         elif len(later) == 1 and first and units[index].name == "imperative":
             asked = _guessed(first[-1], later[0])
         if (
@@ -82,6 +85,47 @@ def one_of(first: Act, later: Act) -> Act | None:
                 case Which(such=such, among=()):
                     compare = compared_by(such, members)
                     return Ask(compare or structs.replace(question, among=members))
+    return None
+
+
+def _paired(units: Sequence[Node], rows: list[tuple[Act, ...]]) -> list[tuple[Act, ...] | None]:
+    """List two causes behind a question for one: "why brake, for the bus or for the turn?"."""
+    found: list[tuple[Act, ...] | None] = [*rows]
+    for index in range(2, len(rows)):
+        if not _is_other(units[index]):
+            continue
+        match rows[index - 2][-1:], rows[index - 1], rows[index]:
+            case (
+                (Ask(question=Why() | Which()),),
+                (Elliptic(thing=one, event=None, form="same" | "why"),),
+                (Elliptic(form="same" | "why") as later,),
+            ):
+                other = later.thing if later.event is None else _place_of(later.event)
+                if one is not None and other is not None:
+                    found[index - 1] = (Elliptic(Together((one, other)), form="which"),)
+                    found[index] = None
+    return found
+
+
+def _place_of(event: Event) -> Junction | None:
+    """Give the place of what we have to slow down for."""
+    return Junction() if event.action in ("turn", "exit-left", "exit-right") else None
+
+
+def _listed(first: Act, later: Elliptic) -> Question | None:
+    """Ask "..., the bus or the light?" which of these it is that was asked for before."""
+    match first, later:
+        case Ask(question=asked), Elliptic(thing=Together(members=members), form="which"):
+            match asked:
+                case Why(suspect=None):
+                    one, other, *more = members
+                    if more:  # the reason tells which it is
+                        return asked
+                    return structs.replace(asked, suspect=one, rival=other)
+                case Why(rival=None):  # "was that for him, the bus, or something else?"
+                    return structs.replace(asked, rival=members[0])
+                case Which(such=such, among=()) if such is not None:
+                    return structs.replace(asked, among=members)
     return None
 
 
@@ -112,8 +156,8 @@ def _either(first: Act, later: Act) -> Question | None:
         case Ask(question=Whether(that=that) as asked):
             if isinstance(later, Elliptic) and later == Elliptic(time=later.time):
                 return asked  # "had you seen him before, or only just then?"
-            if (which := _held_by(that, later)) is not None:
-                return which
+            if (cause := _held_by(that, later) or _held_for(that, later)) is not None:
+                return cause
             contents = (that,)
         case Claim(that=Happens() as that) if _is_of_two(that, later):
             contents = (that,)  # "he waits for us, or we wait for him?"
@@ -152,6 +196,21 @@ def _held_by(that: Proposition, later: Act) -> Which | None:
         ):
             such = Happens(structs.replace(event, actor=Wanted()))
             return Which(Wanted(), such, (event.actor, other))
+    return None
+
+
+def _held_for(that: Proposition, later: Act) -> Why | None:
+    """Read "is it those people you are waiting for, or the light?" as for which of them."""
+    match that, later:
+        case Happens(event=Event(action=action, actor=Ego(), object=suspect) as event), (
+            Elliptic(
+                thing=Feature() | Described() | Vehicle() | Junction() as other,
+                event=None,
+                form="same",
+            )
+            | Ask(question=Why(of=That(), suspect=other, rival=None))
+        ) if action in HELD and suspect is not None and other is not None:
+            return Why(Happens(structs.replace(event, object=None)), suspect=suspect, rival=other)
     return None
 
 

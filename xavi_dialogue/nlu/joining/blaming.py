@@ -117,11 +117,18 @@ def _blamed(question: Why, later: Act) -> Act | None:
             return Ask(structs.replace(question, rival=other))
         case Ask(
             question=Why(of=That(), suspect=suspect)
-            | Whether(that=Related(relation="same-as", thing=Pronoun(), to=suspect))
+            | Whether(that=Related(relation="same-as", thing=Pronoun(), to=suspect)) as asked
         ) if question.suspect is None and suspect is not None:
-            return Ask(structs.replace(question, suspect=suspect))
-        case Ask(question=Why(of=That(), suspect=other)) if rival and other is not None:
+            other = asked.rival if isinstance(asked, Why) else None
+            return Ask(structs.replace(question, suspect=suspect, rival=other))
+        case Ask(question=Why(of=of, suspect=other)) if (
+            rival and other is not None and of in (That(), question.of)
+        ):
             return Ask(structs.replace(question, rival=other))  # "..., or did he scare you?"
+        case Ask(question=Whether(that=Both((of, Happens(event=Event(object=other))), "or"))) if (
+            rival and other is not None and of == question.of
+        ):  # "is it the light that you are waiting for, or the people?"
+            return Ask(structs.replace(question, rival=other))
         case Ask(question=asked) if question.suspect is None:
             shown = _coloured(asked)  # "is it that blue one?"
             return None if shown is None else Ask(structs.replace(question, suspect=shown))

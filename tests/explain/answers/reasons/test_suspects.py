@@ -25,7 +25,7 @@ from xavi_dialogue.domain.terms import Event, Exit, Related
 from xavi_dialogue.explain.answers.reasons.choices import is_choice, is_kept_from
 from xavi_dialogue.explain.answers.reasons.suspects import (
     meant_on_foot,
-    or_light,
+    or_road,
     with_suspect,
     with_suspects,
 )
@@ -197,7 +197,7 @@ def test_one_without_which_the_same_is_done_is_not_the_reason(
     told_: Any = with_suspect(found, 1)
     assert told_.suspected == part
     two: Any = with_suspect(found, 1, 7)
-    assert two.suspected == ("same" if part == "same" else "either")
+    assert two.suspected == "either"
 
 
 def test_one_of_several_that_are_not_named_is_not_the_only_cause() -> None:
@@ -256,13 +256,13 @@ def test_some_of_a_group_stand_for_all_of_it() -> None:
 
 @pytest.mark.parametrize(("suspect", "part"), [(1, "either"), (2, "either"), (3, "neither")])
 def test_whether_it_is_somebody_or_the_light_is_told_by_the_reason(suspect: int, part: str) -> None:
-    told_: Any = or_light(with_suspect(of_motion(1, 2), suspect))
+    told_: Any = or_road(with_suspect(of_motion(1, 2), suspect), ("light",))
     assert told_.suspected == part
     unasked = of_motion(1)
-    assert or_light(unasked) == unasked
-    assert or_light(Measures(())) == Measures(())
+    assert or_road(unasked, ("light",)) == unasked
+    assert or_road(Measures(()), ("light",)) == Measures(())
     lit: Any = replace(of_motion(1), causes=(MotionCause("light"),))
-    of_lit: Any = or_light(with_suspect(lit, suspect))
+    of_lit: Any = or_road(with_suspect(lit, suspect), ("light",))
     assert of_lit.suspected is None
 
 

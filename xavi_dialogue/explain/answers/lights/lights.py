@@ -25,7 +25,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.terms import Believed, Ego, Event, Feature, Has, Measured, Related
+from xavi_dialogue.domain.terms import Believed, Both, Ego, Event, Feature, Has, Measured, Related
 from xavi_dialogue.explain.answers.lights import (
     lights_ahead,
     lights_met,
@@ -56,6 +56,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
         return lights_seen.claimed if stated(act.that) is not None else None
     if not isinstance(act, Ask):
         return None
+    if (hue := _which_colour(act.question)) is not None:
+        return lambda _, scene: lights_seen.colour(hue, scene)
     match act.question:
         case Whether(that) if lights_met.wanted(that, scene) is not None:
             return _asked(lights_met.whether)
@@ -95,6 +97,14 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
         case WhatIf(supposed) if lights_ahead.concerns(unwrapped(supposed)[0]):
             return _asked(lights_supposed.supposed)
     return _of_fact(act.question)
+
+
+def _which_colour(question: object) -> HowMuch | None:
+    """Return the question for its colour that "is the light red or green?" is."""
+    match question:
+        case Whether(Both((Has("colour", thing=Feature("light") as light) as first, *_), "or")):
+            return HowMuch(Measured("colour", light, time=first.time, tense=first.tense))
+    return None
 
 
 def _asked(found: Explainer) -> Explainer:

@@ -9,6 +9,10 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import is_past
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 
+#: What is seen of how somebody drives.
+MOTIONS: frozenset[ActionName] = frozenset(
+    ("speed-up", "slow-down", "brake", "stand", "move", "go", "stop", "wait")
+)
 STATES: frozenset[ActionName] = frozenset(("stand", "wait"))  # what can be seen now
 
 
@@ -30,6 +34,17 @@ def is_our_course(of: Both, asked: Asked) -> bool:
         and event.tense in ("present", "future")
         for event in events
     )
+
+
+def acts_now(of: Both) -> Ego | Vehicle | None:
+    """Return who acts, if the question is which of several things we or another do now."""
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    actors = {event.actor for event in events}
+    moves = all(e.tense == "present" and e.modal is None and e.action in MOTIONS for e in events)
+    if len(events) < len(of.contents) or len(actors) != 1 or not moves:
+        return None
+    actor = events[0].actor
+    return actor if isinstance(actor, Ego | Vehicle) else None
 
 
 def feared(of: Both, asked: Asked) -> Proposition | None:

@@ -33,6 +33,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.measuring.counting import how_many
 from xavi_dialogue.explain.answers.measuring.durations import (
@@ -230,7 +231,15 @@ def _turn(of: Measured, asked: Asked) -> Answer:
         return gone(asked, Vehicle(other))
     if other is not None or isinstance(of.thing, Vehicles):
         return whither(Whither(of.thing, of.time), asked)
+    if of.tense == "present" and asked.past is None and _is_turning(asked):
+        return activity(asked, Ego(), asked.now)
     return which_way(of, asked)
+
+
+def _is_turning(asked: Asked) -> bool:
+    """Check whether we are in a turn just now."""
+    on = asked.world.episodes(Ego(), ("exit-left", "exit-right"), asked.now, asked.now)
+    return any(e.end is None or e.end > asked.now for e in on)
 
 
 def _speed_change(of: Measured, asked: Asked) -> Answer:

@@ -5,7 +5,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Between, Both, Ego, Event, Happens, Next, Now, Unsaid
+from xavi_dialogue.domain.terms import Between, Both, Ego, Event, Happens, Next, Not, Now, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.plans import MOVES, foreseen, plan_ahead, steps
 from xavi_dialogue.explain.answers.expectations.slowing import slowing
@@ -14,6 +14,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.facts.looks import STILL
 
 HALTS = frozenset[ActionName](("stop", "wait", "stand", "give-way", "let-go"))
 SLOWS = frozenset[ActionName](("brake", "slow-down"))
@@ -70,7 +71,15 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
     stops = to_come(asked, replace(halts[0], action="stop", object=None))
     slows = next((to_come(asked, e) for e in goes if e.action in SLOWS), None)
     told = stops or slows or _under_way(asked, goes[0]) or to_come(asked, goes[0])
+    if told is not None and slows is None and stops is None and _drives(asked):
+        return Finding(None, answer=Verdict(Not(Happens(halts[0])), True, either=True))
     return None if told is None else Finding(None, answer=told)
+
+
+def _drives(asked: Asked) -> bool:
+    """Check whether we drive already, so that we need not set off."""
+    speed = asked.world.measure("speed", Ego(), asked.now).value
+    return speed is not None and speed > STILL
 
 
 def _moving(asked: Asked, events: list[Event]) -> Finding | None:

@@ -5,9 +5,7 @@ from typing import Literal
 
 from msgspec.structs import replace
 
-from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
-    Activity,
     Answer,
     Happenings,
     Identified,
@@ -30,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.explain.answers.events.accounts import TOLD, select, summary, taking_part
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.events.beliefs import since_when
 from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance
@@ -42,7 +41,6 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, insta
 from xavi_dialogue.explain.answers.reference.naming import (
     first_look,
     is_us,
-    look_of,
     number,
     somebodies,
 )
@@ -56,12 +54,9 @@ from xavi_dialogue.explain.answers.ride.onward import course, leaves_when, turni
 from xavi_dialogue.explain.answers.ride.places import time_to_go, whither
 from xavi_dialogue.explain.answers.ride.reaching import reaching
 from xavi_dialogue.explain.causes.vehicles.announced import announced
-from xavi_dialogue.explain.history.motion import Trend
-from xavi_dialogue.explain.history.thresholds import STANDING
 
 SURE = 0.95  # minimum share of the rollouts that come to a turn, for its time to be stated
 LIKELY = 0.5  # minimum probability of what is going to happen
-CHANGING = 0.1  # [m/s2] minimum acceleration of a changing speed
 
 
 def when(question: When, asked: Asked) -> Answer:
@@ -161,36 +156,6 @@ def intent(asked: Asked, vehicle: int) -> Answer:
     ]
     told = announced(asked.ride, asked.world, vehicle, lit[-1], asked.now) if lit else None
     return told or whither(Whither(Vehicle(vehicle)), asked)
-
-
-def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
-    """Return what somebody is doing at a time [s], how fast, and what it is expected to do."""
-    world = asked.world
-    on = world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
-    if not on and isinstance(actor, Ego):
-        on = world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
-    speed = world.measure("speed", actor, at)
-    if speed.value is not None and speed.value < STANDING:  # to drive past is over
-        on = tuple(e for e in on if e.action not in ("pass", "overtake"))
-    vehicle = number(actor)
-    trend = _trend(asked, EGO if vehicle is None else vehicle, at)
-    look = look_of(asked, actor, at)
-    belief = None if vehicle is None else world.belief(vehicle, at)
-    lost = look is not None and not look.in_view
-    return Activity(
-        actor, at, () if lost else on, None if lost else speed.value,
-        None if lost else trend, look, belief,
-    )  # fmt: skip
-
-
-def _trend(asked: Asked, vehicle: int, at: float) -> Trend | None:
-    """Return how a speed is changing at a time [s]; the newest scene ends a change at once."""
-    trend, scene = asked.ride.motion(vehicle).until(at).trend, asked.ride.scene
-    seen = None if scene is None or at < scene.time else scene.vehicles.get(vehicle)
-    if seen is None or trend not in ("slowing", "speeding-up"):
-        return trend
-    rate = seen.acceleration if trend == "speeding-up" else -seen.acceleration
-    return trend if rate > CHANGING else "steady"
 
 
 def _to_come(asked: Asked, of: Happens) -> Answer:

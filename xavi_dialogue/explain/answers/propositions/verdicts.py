@@ -38,9 +38,9 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, State
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.expectations.foreseen import CROSSING, macros
 from xavi_dialogue.explain.answers.propositions.conditions import handed
-from xavi_dialogue.explain.answers.propositions.happenings import activity
 from xavi_dialogue.explain.answers.propositions.lasting import staying
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered

@@ -29,12 +29,14 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import Relation
+from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
 from xavi_dialogue.explain.answers.expectations.plans import plan_ahead
 from xavi_dialogue.explain.answers.owing import is_rule
 from xavi_dialogue.explain.answers.propositions.alternatives import (
+    acts_now,
     feared,
     is_our_course,
     lets_us,
@@ -197,6 +199,8 @@ def either(of: Both, asked: Asked) -> Finding | None:
     likely = [(p, one) for p, one in found if one.holds]
     on = [(p, one) for p, one in likely if _is_under_way(p, one)]
     likely = on if len(on) == 1 else likely
+    if not on and (actor := acts_now(of)) is not None and asked.past is None:
+        return Finding(None, answer=activity(asked, actor, asked.now))
     deeds = [part for part, _ in likely if isinstance(part, Happens)]
     rules = [one for _, one in likely if isinstance(one.answer, Priority)]
     if len(likely) > 1 and rules:

@@ -4,10 +4,10 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Feature, Vehicles
+from xavi_dialogue.domain.terms import Feature, Junction, Thing, Vehicles
 from xavi_dialogue.explain.answers.reasons.suspects import (
     meant_on_foot,
-    or_light,
+    or_road,
     with_suspect,
     with_suspects,
 )
@@ -17,7 +17,7 @@ from xavi_dialogue.explain.answers.reference.reading import check_seen, walking
 
 def road_last(question: Why) -> Why:
     """Put a road user before what stands in the road: "because of the light or the bus?"."""
-    if not isinstance(question.suspect, Feature) or question.rival is None:
+    if not isinstance(question.suspect, Feature | Junction) or question.rival is None:
         return question
     return replace(question, suspect=question.rival, rival=question.suspect)
 
@@ -42,4 +42,14 @@ def of_suspects(found: Answer, question: Why, suspect: int | None, scene: Asked)
     else:
         rival = check_seen(scene, question.rival)
         told = with_suspect(found, suspect, rival, alone=question.alone)
-    return or_light(told) if isinstance(question.rival, Feature) else told
+    return told if (kinds := _kinds(question.rival)) is None else or_road(told, kinds)
+
+
+def _kinds(rival: Thing | None) -> tuple[str, ...] | None:
+    """Return what in the road a question names beside a road user, as kinds of reasons."""
+    match rival:
+        case Feature(kind="light"):
+            return ("light",)
+        case Feature() | Junction():
+            return ("turn", "bend", "roundabout", "give-way-line", "light")
+    return None

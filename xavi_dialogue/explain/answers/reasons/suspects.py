@@ -34,7 +34,6 @@ def with_suspect(
         asked.sort(key=lambda vehicle: _same_without(found, vehicle))
         suspect = asked[0] if asked else suspect
         part: Suspected = "either" if asked else "neither"
-        part = "same" if asked and _same_without(found, suspect) else part
     elif suspect in named and _same_without(found, suspect):
         part = "same"
     else:
@@ -103,17 +102,17 @@ def meant_on_foot(
     return named if set(guilty) & set(named) else guilty or named
 
 
-def or_light(found: Answer) -> Answer:
-    """State the reason alone where the question is whether it is somebody or the traffic light.
+def or_road(found: Answer, kinds: Collection[str]) -> Answer:
+    """State the reason alone where the question is whether it is somebody or the light or a bend.
 
     It names them, or both; where it is neither, that comes first.
     """
     if not isinstance(found, ChoiceReason | MotionReason) or found.suspected is None:
         return found
-    lit = isinstance(found, MotionReason) and any(cause.kind == "light" for cause in found.causes)
+    road = isinstance(found, MotionReason) and any(one.kind in kinds for one in found.causes)
     if found.suspected not in CLEARED:
         return replace(found, suspected="either", besides=())
-    return replace(found, suspected=None if lit else "neither", besides=())
+    return replace(found, suspected=None if road else "neither", besides=())
 
 
 def blamed(found: ChoiceReason | MotionReason) -> list[int]:

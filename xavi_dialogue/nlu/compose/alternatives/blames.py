@@ -4,7 +4,7 @@ import re
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Whether, Why
+from xavi_dialogue.domain.meaning import Act, Ask, Question, Whether, Why
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -25,7 +25,14 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
-from xavi_dialogue.nlu.compose.clauses.sem import ALTERNATIVES, Group, Sem, Specified, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import (
+    ALTERNATIVES,
+    Group,
+    Notes,
+    Sem,
+    Specified,
+    as_thing,
+)
 
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "take-turn"})
 _HINDERING = frozenset({"bend", "light", "crossing", "queue", "obstacle"})
@@ -50,10 +57,10 @@ def blamed(clause: Clause) -> Thing | None:
         return None  # "was it too fast for this bend?"
     graded = clause.adjectives or clause.manner or clause.comparisons  # "too fast for this bend"
     phrase = clause.complements[0]
-    return _cause(phrase.sem) if phrase.key == "for" and not graded else None
+    return cause_of(phrase.sem) if phrase.key == "for" and not graded else None
 
 
-def _cause(sem: Sem | None) -> Thing | None:
+def cause_of(sem: Sem | None) -> Thing | None:
     """Return what may hinder us: a road user, a junction or bend, or the junction of a turn."""
     if isinstance(sem, Event):
         return Junction() if sem.action in _TURNS else None
@@ -68,6 +75,47 @@ def _cause(sem: Sem | None) -> Thing | None:
     return None
 
 
+def causes_of(sem: Sem | None) -> tuple[Thing, ...] | None:
+    """Give the causes that are joined by "or"; None for all else."""
+    if not isinstance(sem, Group) or sem.join != "or":
+        return None
+    things = tuple(thing for one in sem.members if (thing := cause_of(one)) is not None)
+    told = any(thing != Described(definite=False) for thing in things)  # not "a man or a lady"
+    return things if told and len(things) == len(sem.members) else None
+
+
+def causes_named(clause: Clause) -> tuple[Thing, ...] | None:
+    """Read "..., for the bus or for the turn?", "because of the light or the people?"."""
+    first = clause.because or next((c.sem for c in clause.complements if c.key == "for"), None)
+    if isinstance(first, Clause):
+        return None
+    if (listed := causes_of(first)) is not None:
+        return listed
+    more = [c.sem for join, one in clause.chained if join == "or" for c in one.complements]
+    things = [cause_of(sem) for sem in (first, *more)]
+    named = tuple(thing for thing in things if thing is not None)
+    return named if len(named) == len(things) >= ALTERNATIVES else None
+
+
+def causes_taken(clause: Clause, notes: Notes) -> tuple[Thing, ...]:
+    """Take "for the bus or for the turn" out of the clause whose reason it is."""
+    causes = causes_named(clause)
+    if causes is None:
+        return ()
+    clause.because = None
+    clause.complements = [phrase for phrase in clause.complements if phrase.key != "for"]
+    notes.taken.update(id(other) for _, other in clause.chained)
+    clause.chained = []
+    return causes
+
+
+def blaming(question: Question, causes: tuple[Thing, ...]) -> Question:
+    """Put the causes of which one is asked for into a question for a reason."""
+    if not isinstance(question, Why) or len(causes) != ALTERNATIVES or question.suspect is not None:
+        return question
+    return replace(question, suspect=causes[0], rival=causes[1])
+
+
 def either_cause(clause: Clause) -> Why | None:
     """Read "was it the light or the bus" as for which of them it was; of two vehicles, None."""
     it = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that", "this")
@@ -76,7 +124,7 @@ def either_cause(clause: Clause) -> Why | None:
         return None
     if not isinstance(named, Group) or named.join != "or":
         return None
-    things = [_cause(member) for member in named.members]
+    things = [cause_of(member) for member in named.members]
     roadside = any(isinstance(thing, Feature) for thing in things)
     cleft = any(isinstance(t, Described) and (t.doing or t.such) for t in things)
     if len(things) != ALTERNATIVES or None in things or not roadside or cleft:
@@ -146,7 +194,7 @@ def rival(clause: Clause) -> Thing | None:
     """Return the second of two suspected causes: "was it for the bus or for the lorry?"."""
     sem = clause.complements[0].sem if clause.complements else clause.because
     members = sem.members[1:] if isinstance(sem, Group) and sem.join == "or" else ()
-    return next((one for one in map(_cause, members) if one is not None), None)
+    return next((one for one in map(cause_of, members) if one is not None), None)
 
 
 def whom_of(of: Proposition) -> Thing | None:

@@ -20,6 +20,8 @@ from xavi_dialogue.domain.terms import (
     Event,
     Feature,
     Happens,
+    Has,
+    Junction,
     Measured,
     Pronoun,
     Proposition,
@@ -32,7 +34,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.comparing import BY
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, as_thing
-from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 
 T = TypeVar("T")
@@ -45,6 +47,7 @@ _EXTREMES = {"fastest": ("speed", False), "quickest": ("speed", False), "slowest
 _RANKS = {"difficult": ("comfort", True), "dangerous": ("safety", True), "biggest": ("size", False),
           "smallest": ("size", True), "highest": ("best", True), "lowest": ("best", True),
           "best": ("best", False), "uncomfortable": ("comfort", True)}  # fmt: skip
+_POINTED = frozenset({"one", "the", "this", "that"})
 _FIRST = frozenset({"before", "bearing-ahead"})
 _LATER = frozenset({"behind", "bearing-behind", "after"})
 _IN_LINE = {"ahead": False, "behind": True}
@@ -105,6 +108,8 @@ def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
         return []
     if (turn := _cleft(clause) or _before_or_after(clause, propositions)) is not None:
         return [(turn, 0.0)]
+    if (values := _values(clause)) is not None:
+        return [(Whether(values), 0.0)]
     options = options_of(clause.subject)
     if options is None:
         return _any_of(clause, propositions) or _done_to(clause, propositions)
@@ -117,6 +122,25 @@ def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
     open_ = dataclasses.replace(clause, subject=Wanted())
     found = [(fact(c.value), c.cost) for c in propositions.readings(open_)]
     return [(Which(Wanted(), of, options), cost) for of, cost in found if _is_open(of)]
+
+
+def _values(clause: Clause) -> Both | None:
+    """Read "was the light red or green", "is that a car or a van" as which value it has."""
+    sem = clause.objects[0][0] if len(clause.objects) == 1 else None
+    thing = as_thing(clause.subject)
+    if clause.verb is not None or thing is None or not isinstance(sem, Group) or sem.join != "or":
+        return None
+    named = [one for one in sem.members if isinstance(one, Described)]
+    if not _POINTED.isdisjoint(words_of(clause.objects[0][1]).split()):
+        return None  # "the red one or the blue one"
+    hues = [one.colour for one in named if one == Described(colour=one.colour)]
+    kinds = [one.kind for one in named if one == Described(one.kind, definite=False)]
+    tense: Any = clause.tense
+    for attribute, values in (("colour", hues), ("kind", kinds)):
+        if len(values) == len(sem.members):
+            of = Has(cast(Any, attribute), "", thing, clause.time, tense)
+            return Both(tuple(replace(of, value=str(value)) for value in values), "or")
+    return None
 
 
 def _any_of(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
@@ -138,7 +162,10 @@ def _cleft(clause: Clause) -> Question | None:
     if clause.verb is not None or not isinstance(sem, Group) or sem.join != "or":
         return None
     things = [as_thing(member) for member in sem.members]
-    named = [one for one in things if isinstance(one, Feature) or is_pointed_at(one)]
+    places = [one for one in things if isinstance(one, Feature | Junction)]
+    named = [one for one in things if one in places or isinstance(one, Described | Ego | Vehicle)]
+    if not places and not any(map(is_pointed_at, named)):
+        return None
     told = [one for one in named if isinstance(one, Described) and (one.doing or one.such)]
     if len(told) != 1 or len(named) < len(things):
         return None

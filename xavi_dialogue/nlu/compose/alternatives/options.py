@@ -168,13 +168,18 @@ def _named(clause: Clause) -> tuple[Any, ...] | None:
             if isinstance(owned, Measure) and len(others) > 1:  # "priority, the lorry or us"
                 clause.objects.insert(index, (owned, part))
                 return tuple(_option(member) for member in others)
-            return tuple(_option(member) for member in sem.members)
+            named = tuple(_option(member) for member in sem.members)
+            if others and all(option in _SORTS for option in named[1:]):
+                clause.objects.insert(index, (owned, part))
+                return None  # "who is driving the black one, a man or a lady?"
+            return named
     for index, (join, other) in enumerate(clause.chained):
         if join == "or" and clause.objects and _is_option(other):
             del clause.chained[index]
             first, _ = clause.objects.pop()
             return _option(first), _option(other.objects[0][0])
-    return None
+    done = clause.bare  # "what made you slow down, the bend or the bus?"
+    return None if done is None or done.comma < 0 else _named(done)
 
 
 def _is_option(other: Clause) -> bool:

@@ -27,7 +27,6 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
-    Exit,
     Feature,
     Happens,
     Is,
@@ -38,7 +37,6 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     That,
     Thing,
-    Unsaid,
     Vehicle,
     Vehicles,
     Wanted,
@@ -54,6 +52,7 @@ from xavi_dialogue.nlu.compose.alternatives.recast import (
     surely_valued,
 )
 from xavi_dialogue.nlu.compose.alternatives.swapped import swapped
+from xavi_dialogue.nlu.compose.alternatives.ways import way_asked
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -71,37 +70,10 @@ from xavi_dialogue.nlu.compose.states.pacing import (
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact, sureness
-from xavi_dialogue.nlu.compose.wh_questions.which import way_at
-
-_WAYS = frozenset(
-    {"exit-left", "exit-right", "exit-straight", "turn", "continue", "continue-next-exit",
-     "leave", "enter", "u-turn", "head", "go", "pass"}
-)  # fmt: skip
-
 
 WHOLE = -0.25  # cost of what is read as a whole: "are you sure that was right?"
 #: Nouns whose existence is a state, not a question for them.
 _STATED = frozenset(("danger", "problem", "sight", "side", "truth"))
-_OTHERS = (Described, Pronoun, Vehicle)
-
-
-def way_asked(of: Proposition) -> Question | None:
-    """Turn "do we turn left or go straight on" into the question which way we go."""
-    if not isinstance(of, Both) or of.join != "or":
-        return None
-    found = [one.event for one in of.contents if isinstance(one, Happens)]
-    if len(found) < len(of.contents) or not all(
-        event.action in _WAYS
-        and isinstance(event.actor, Ego)
-        and event.modal is None
-        and event.where is None
-        and not isinstance(event.object, _OTHERS)
-        for event in found
-    ):
-        return None
-    exits = any(isinstance(event.object, Exit) for event in found)
-    time = next((e.time for e in found if not isinstance(e.time, Unsaid)), Unsaid())
-    return way_at(Ego(), time, found[0].tense, "exit-number" if exits else "turn")
 
 
 def judged(clause: Clause) -> Thing | None:
@@ -136,8 +108,9 @@ def _is_all(clause: Clause) -> bool:
 def _is_option(clause: Clause) -> bool:
     """Check whether a clause is about options or alternatives."""
     named = [clause.subject] if clause.passive else [sem for sem, _ in clause.objects]
-    options = any(isinstance(sem, Noun) and sem.key == "option" for sem in named)
-    return options or any(isinstance(sem, Described) and sem.other for sem in named)
+    return any(isinstance(sem, Noun) and sem.key == "option" for sem in named) or any(
+        isinstance(sem, Described) and sem.other for sem in named
+    )
 
 
 def _our_sureness(thing: Thing | None) -> bool:

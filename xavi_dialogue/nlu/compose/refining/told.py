@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     WholeRide,
 )
+from xavi_dialogue.nlu.compose.alternatives.blames import causes_named
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -54,7 +55,7 @@ def refined_whether(clause: Clause, question: Question) -> Question:
         ):
             return WHEN_WE_GO  # "will we be able to go when it goes green?"
         case Whether(Both((Happens(Event() as first), Happens(Event() as other)), "or")):
-            return _either(first, other) or question
+            return _either(first, other, clause) or question
         case Whether(Is("allowed", event=Event("go", Ego()) as event)):
             return Whether(Happens(replace(event, modal="can")))  # "do we get to go now?"
         case Whether(
@@ -68,9 +69,12 @@ def refined_whether(clause: Clause, question: Question) -> Question:
     return only_one(clause) or sound_asked(clause, question) or question
 
 
-def _either(first: Event, other: Event) -> Why | None:
+def _either(first: Event, other: Event, clause: Clause) -> Why | None:
     """Read "are you waiting for him or for the light?" as which of two is the reason."""
     held = first.action in _HELD and first.actor == Ego() and first.action == other.action
+    causes = causes_named(clause) if held else None
+    if causes is not None and first.object is None:  # "for the turn or for the bus?"
+        return Why(Happens(first), suspect=causes[0], rival=causes[1])
     rival = other.object if other.actor == Ego() else None  # "or did he?" asks of him
     if not held or first.object is None or rival is None:
         return None

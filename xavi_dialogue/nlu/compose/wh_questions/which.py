@@ -20,6 +20,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     Back,
     Caused,
+    Compares,
     Described,
     Ego,
     Event,
@@ -196,6 +197,12 @@ class WhichOne:
     def _abstract(self, sem: Noun, clause: Clause, value: Any) -> Question:
         if isinstance(value, Special) and value.name in ("matter", "influence"):
             return WhatWouldChange(None, most=True)  # "which factor mattered most?"
+        if sem.key == "factor" and isinstance(clause.subject, Wanted) and value is not None:
+            match held := fact(value):
+                case Caused(effect=effect) if effect is not None:
+                    return Why(effect)  # "what factor made you stop?"
+                case Compares() | Happens():
+                    return Which(Wanted(), held)  # "which constraint limits our speed?"
         if sem.key in ("reason", "factor"):
             return Why(fact(value)) if value is not None else Why(That())
         if sem.key == "order":
