@@ -51,7 +51,7 @@ from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.propositions.tally import counts, tallied
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.refining.sounds import heard
-from xavi_dialogue.nlu.compose.refining.told import refined_whether
+from xavi_dialogue.nlu.compose.refining.told import refined_claim, refined_whether
 from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
 from xavi_dialogue.nlu.compose.verbs.pointed import pointed
@@ -191,7 +191,7 @@ class Statements:
             return (Ask(self.questions.framed(Whether(of, True), clause, value)),)
         if isinstance(of, Not) and isinstance(of.content, Is) and of.content.state == "comfortable":
             return (Claim(replace(of.content, state="uncomfortable")),)
-        return (Claim(of, _disputes(of, clause)),)
+        return (refined_claim(Claim(of, _disputes(of, clause))),)
 
     def _expected(self, value: Special) -> Question | None:
         """Take "I expected you to stop" for the question why not."""

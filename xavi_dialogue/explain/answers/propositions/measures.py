@@ -12,7 +12,6 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
-    Junction,
     Measured,
     Relative,
     Thing,
@@ -49,7 +48,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
 )
 from xavi_dialogue.explain.answers.reference.occasions import did_not_happen, occasions, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import stretch, with_slowing
-from xavi_dialogue.explain.answers.ride.places import told
+from xavi_dialogue.explain.answers.ride.places import at_junction
 
 #: Attributes that change from moment to moment and are numbers.
 NUMBERS: frozenset[Attribute] = frozenset(
@@ -275,10 +274,7 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
         and of.attribute in ("speed", "deceleration")
     )
     if len(found) == 1 and found[0].gap is None and marked:
-        road = asked.world.road(found[0].time)
-        if road is not None and road.route:
-            step = Junction(road.route[0].kind, 1, found[0].time)
-            found += told((asked.world.measure("distance", Ego(), found[0].time, step),))
+        found += at_junction(asked, found[0].time)
     return tuple(m for m in found if m.gap is None) or tuple(found)
 
 

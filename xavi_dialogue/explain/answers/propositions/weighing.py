@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Both,
     Caused,
     Compares,
+    Ego,
     Event,
     Exists,
     Happens,
@@ -57,6 +58,7 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.ride.conduct import conduct
 from xavi_dialogue.explain.answers.ride.existing import exists
 from xavi_dialogue.explain.answers.ride.places import locate, whither
+from xavi_dialogue.explain.answers.sight.room import in_our_way_ahead
 from xavi_dialogue.explain.answers.suppositions.pulling_up import pulls_up
 from xavi_dialogue.explain.history.ride import planned
 
@@ -105,6 +107,8 @@ def _nobody(of: Related, asked: Asked) -> Finding:
     at = instant(asked, of.time, of.tense)
     each = [related(replace(of, thing=Vehicle(v)), asked) for v in asked.world.in_view(at)]
     seen = [fact for one in each if one.holds for fact in one.facts if isinstance(fact, Look)]
+    if of.relation == "ahead-of" and isinstance(of.to, Ego):
+        seen = in_our_way_ahead(asked, seen, at)  # and not in another lane
     if not seen:
         return Finding(True)
     nearest = min(seen, key=lambda look: look.distance)

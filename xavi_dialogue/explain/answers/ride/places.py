@@ -171,12 +171,28 @@ def here(asked: Asked, at: float) -> tuple[Measure, ...]:
     road = asked.world.road(at)
     step = road.route[0] if road is not None and road.route else None
     found = list(measured(asked, ("lane",), at))
-    if step is not None:
-        place = road.places.get(EGO) if road is not None else None
+    place = road.places.get(EGO) if road is not None else None
+    if place is not None and place.in_junction and not place.roundabout:
+        found += at_junction(asked, at)
+    elif step is not None:
         inside = place is not None and place.roundabout
         goal: Thing = Exit(step.exit) if inside else Junction(step.kind, 1, at)
         found.append(_to_junction(asked, goal, step.distance, at))
     return told((*found, *to_go(asked, at)))
+
+
+def at_junction(asked: Asked, at: float) -> tuple[Measure, ...]:
+    """Return how far before the next junction we were at a time [s], or that we were in one."""
+    road = asked.world.road(at)
+    if road is None:
+        return ()
+    place = road.places.get(EGO)
+    if place is not None and place.in_junction and not place.roundabout:
+        return (Measure("distance", Ego(), at, value=0.0, to=Junction(time=at)),)
+    if not road.route:
+        return ()
+    step = Junction(road.route[0].kind, 1, at)
+    return told((asked.world.measure("distance", Ego(), at, step),))
 
 
 def junction(asked: Asked, thing: Junction, at: float) -> Measure:

@@ -1,5 +1,7 @@
 """Room: whether a lane beside us, or ours ahead, is free."""
 
+from collections.abc import Iterable
+
 from planner.record.places import RoadPlace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Look
@@ -11,8 +13,10 @@ from xavi_dialogue.explain.answers.reference.findings import Finding, known, unk
 from xavi_dialogue.explain.answers.reference.moments import instant
 from xavi_dialogue.explain.answers.reference.naming import looks
 from xavi_dialogue.explain.answers.ride.onward import steps_ahead
+from xavi_dialogue.explain.causes.driving.slowness import in_lane_ahead
 
 FREE = (15.0, 30.0)  # [m] behind and ahead of us, where nobody is in a free lane
+IN_FRONT = 40.0  # [m] within which somebody in our lane is in front of us
 TOLD = 2  # of those in our way, the nearest
 
 
@@ -40,6 +44,17 @@ def free(of: Is, asked: Asked) -> Finding:
     ]
     nearest = sorted(there, key=lambda look: look.distance)
     return Finding(not there, tuple(nearest))
+
+
+def in_our_way_ahead(asked: Asked, seen: Iterable[Look], at: float) -> list[Look]:
+    """Keep those who are ahead of us in our lane at a time [s], or on foot right in front."""
+    ours = {look.vehicle for look in in_lane_ahead(asked.ride, asked.world, at, IN_FRONT)}
+    return [
+        look
+        for look in seen
+        if look.vehicle in ours
+        or (look.kind == "pedestrian" and look.bearing == "ahead" and look.distance <= FREE[1])
+    ]
 
 
 def lane_fits(asked: Asked) -> Finding:

@@ -4,7 +4,7 @@ import dataclasses
 
 from xavi_dialogue.domain.answers import Lasted, Measures, Staying
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Ego, Junction, Vehicle
+from xavi_dialogue.domain.terms import Ego, Junction, Thing, Vehicle
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.clauses.measures import measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
@@ -127,7 +127,13 @@ def _place_of_peak(one: Measure, measures: tuple[Measure, ...]) -> bool:
 def _placed(first: Message, where: Measure) -> Message:
     assert where.value is not None
     far = Quantity(where.value, "m")
-    return message("WITH_PLACE", first=first, far=far, to=Who(where.to or Junction()))
+    to = where.to or Junction()
+    return message("WITH_PLACE", first=first, far=far, to=Who(to), within=is_within(to))
+
+
+def is_within(place: Thing | None) -> bool:
+    """Check whether it is a junction that we were in, not one to which we came later."""
+    return isinstance(place, Junction) and place.rank is None and place.time is not None
 
 
 def _seen_last(one: Measure, measures: tuple[Measure, ...]) -> bool:

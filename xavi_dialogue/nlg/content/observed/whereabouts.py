@@ -3,6 +3,7 @@
 from xavi_dialogue.domain.answers import Located
 from xavi_dialogue.domain.facts import Look, Measure
 from xavi_dialogue.domain.terms import Ego, Exit, Vehicle
+from xavi_dialogue.nlg.content.clauses.joint_measures import is_within
 from xavi_dialogue.nlg.content.clauses.measures import AT_HAND, measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.tenses import since, tense_at
@@ -50,6 +51,7 @@ def _where_we_are(measures: tuple[Measure, ...], context: SpeechContext) -> list
         when=Moment(goal.time) if past else None,
         were="were" if past else "are",
         far=Quantity(goal.value, "m"),
+        within=is_within(goal.to),
         at_hand=goal.value < AT_HAND,
         inside=isinstance(goal.to, Exit),
         to="our exit" if isinstance(goal.to, Exit) else Who(goal.to, goal.time if past else None),

@@ -16,11 +16,14 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Lane,
+    Nobody,
     Not,
+    Now,
     Pronoun,
     Proposition,
     Related,
     Relative,
+    Unknown,
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.alternatives.blames import causes_named
@@ -32,6 +35,9 @@ from xavi_dialogue.nlu.compose.refining.sounds import sound_asked
 from xavi_dialogue.nlu.compose.refining.turns import turns_left
 
 _HELD: Final = frozenset(("wait", "stop", "stand", "brake", "slow-down", "give-way"))
+_AHEAD: Final = Described(bearing="ahead", definite=False)
+ALONE_AHEAD: Final = Related("ahead-of", Nobody())
+_WORST: Final = ("danger", "highest", "risk", "trouble")  # what is over where it is safe
 _INSIDE: Final = ("in", "into")
 _FOR: Final = ("for", "to", "into")
 
@@ -39,6 +45,12 @@ _FOR: Final = ("for", "to", "into")
 def refined_whether(clause: Clause, question: Question) -> Question:
     """Return what a question of yes or no asks for by the slots of its clause."""
     match question:
+        case Whether(Not(Exists(thing))) if thing == _AHEAD:
+            return replace(question, that=ALONE_AHEAD)  # "is there nobody in front of us?"
+        case Whether(Is("over", Unknown(words)) | Related("behind", Unknown(words), Ego())) if (
+            words in _WORST
+        ):  # "is the worst over?"
+            return replace(question, that=Is("safe", time=Now()))
         case Whether(Related("on", Ego(), Feature(kind="queue") as queue)) if any(
             c.key in _INSIDE for c in clause.complements
         ):
@@ -80,6 +92,11 @@ def _either(first: Event, other: Event, clause: Clause) -> Why | None:
         return None
     deed = replace(first, object=None)
     return Why(Happens(deed), suspect=first.object, rival=rival)
+
+
+def refined_claim(claim: Claim) -> Claim:
+    """Return what a statement claims: "there is nobody in front of us" is of our way."""
+    return replace(claim, that=ALONE_AHEAD) if claim.that == Not(Exists(_AHEAD)) else claim
 
 
 def only_one(clause: Clause) -> HowMany | None:
