@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.explain.answers.suppositions import own_suppositions as own
-from xavi_dialogue.explain.answers.suppositions import supposed_when
+from xavi_dialogue.explain.answers.suppositions import supposed_when, undone
 
 ONE = Vehicle(1)
 SPEED = Measured("speed")
@@ -74,6 +74,8 @@ def whether(action: Any, actor: Any = None, **more: Any) -> Whether:
         (whether("go", ONE), "what-if"),
         (whether("turn"), "what-if"),
         (When(Happens(Event("arrive"))), "arrival"),
+        (When(Is("over", Ego())), "arrival"),
+        (When(Happens(Event("pass"))), "arrival"),
         (When(Happens(Event("stop"))), "what-if"),
         (HowMuch(Measured("arrival-time")), "arrival"),
         (HowMuch(Measured("time-to-go")), "arrival"),
@@ -134,7 +136,7 @@ def test_a_delay_is_held_against_what_it_is_said_to_be(cost: float, holds: bool 
     ],
 )
 def test_being_faster_is_read_as_driving_so(of: Any, event: Any) -> None:
-    assert own.paced(of) == event
+    assert undone.paced(of) == event
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,7 @@ from xavi_dialogue.explain.answers.reference.occasions import (
 )
 from xavi_dialogue.explain.answers.reference.reading import numbers_in
 from xavi_dialogue.explain.answers.ride.places import time_to_go
+from xavi_dialogue.explain.history.restraints import lasted
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 SOON = 3.0  # [s] maximum time to a stop that we are about to make
@@ -243,7 +244,15 @@ def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
             kept[-1] = cost
     total = round(sum(cost.value or 0.0 for cost in kept), 1)
     begin = kept[0].time if kept else near.begin
+    if (held := _restrained(asked, other, near)) > 0.0:  # the rest of it was for others
+        total = min(total, round(held, 1))
     return Measure("delay", Ego(), begin, value=total, to=other, extreme="total", count=len(kept))
+
+
+def _restrained(asked: Asked, other: Vehicle, about: Window) -> float:
+    """Return for how long [s] a vehicle was what kept us from driving faster."""
+    spans = lasted(asked.ride, about.begin, min(about.end, asked.now))
+    return sum(span for one, span in spans.items() if one.vehicle == other.number)
 
 
 def compared_costs(question: Which, asked: Asked) -> Measures:

@@ -32,6 +32,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.suppositions.listing import listed, margin
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.answers.suppositions.undone import is_paced_turn
 from xavi_dialogue.explain.causes.plans import avoidance, decisive_factor, options
 from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
@@ -102,6 +103,8 @@ def compared(question: Compare, scene: Asked) -> Answer:
     events = [event for option in named if (event := _own_event(option)) is not None]
     if not events:
         return listed(Listing("options"), scene)
+    if len(events) == 1 and is_paced_turn(events[0]):
+        return of_us(replace(events[0], tense="past"), scene, "quicker")
     kept = events[0].action == "keep-lane"  # going straight on is another action then
     plain = kept or events[0].action == "go" or not _was_done(scene, events[0])
     single = len(question.options) == 1 and plain

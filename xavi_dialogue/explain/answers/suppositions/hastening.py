@@ -78,7 +78,7 @@ def hastened(
         first or next(iter(causes), None),
         ours=None if met is None else met.ours,
         theirs=None if met is None else met.theirs,
-        going=manner_of(event, "fast", "slowly") is None,
+        going=manner_of(event, "fast", "slowly", "gently") is None,
         vehicle=None if met is None else met.vehicle,
         right=met is None or met.vehicle in whom,
         past=now is None,

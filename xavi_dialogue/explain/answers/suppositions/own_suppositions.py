@@ -18,6 +18,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import (
     Compare,
+    HowLong,
     HowMuch,
     HowSure,
     Question,
@@ -52,7 +53,6 @@ from xavi_dialogue.explain.answers.reference.foils import Did
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.reading import (
     event_of,
-    is_own,
     is_past,
     manner_of,
     vehicle_in,
@@ -64,6 +64,8 @@ from xavi_dialogue.explain.answers.suppositions.undone import (
     as_going_on,
     braking_of,
     is_halted,
+    is_of_us,
+    is_paced_turn,
     is_present,
     is_sooner,
     straight,
@@ -105,6 +107,8 @@ def form_of(then: Question | None) -> Asking:
             )
         ):
             return "quicker"  # "would we be further along?"
+        case Whether(that=Compares(left=Measured(attribute="arrival-time"), comparator="less")):
+            return "quicker"
         case Whether(that=Is(state="possible", event=None)):
             return "could"
         case Where(of=Ego()):
@@ -115,7 +119,9 @@ def form_of(then: Question | None) -> Asking:
             that=Happens(event=Event(actor=Ego(), action="go" | "enter" | "arrive", manner=()))
         ):
             return "could"
-        case When(of=Happens(event=Event(action="arrive"))):
+        case When(of=of) if is_of_us(of):
+            return "arrival"  # "when would we have been through?"
+        case HowLong(of=Event(actor=Ego())):
             return "arrival"
         case HowMuch(
             of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time" | "duration")
@@ -190,21 +196,6 @@ def kept_ahead(event: Event, form: Asking) -> tuple[Proposition, bool]:
     return Happens(structs.replace(event, object=None)), False
 
 
-def paced(of: Proposition | None) -> Event | None:
-    """Read "if we were faster or slower" as driving that way."""
-    match of:
-        case Compares(left=Measured(attribute="speed", thing=thing, tense=tense), comparator=how):
-            if not is_own(thing):
-                return None
-            action: ActionName = "slow-down" if how == "less" else "go"
-            return Event(action, manner=("slowly" if how == "less" else "fast",), tense=tense)
-        case Is(state="fast" | "slow" as state, thing=thing, tense=tense) if is_own(thing):
-            if state == "slow":
-                return Event("slow-down", manner=("slowly",), tense=tense)
-            return Event("go", manner=("fast",), tense=tense)
-    return None
-
-
 def of_us(
     event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
 ) -> Answer:
@@ -224,6 +215,8 @@ def of_us(
         return closeness(scene, vehicle_in(event.object), now, "hit", past=False)
     if event.action in GOING and (not _stopped(scene) or manner_of(event, "fast") is not None):
         return hastened(event, scene, form, struck)
+    if is_paced_turn(event):
+        return hastened(structs.replace(event, action="go", side=None), scene, form, struck)
     if event.action in GOING and event.side is None and event.object is None:
         return undone(structs.replace(event, action="stop", manner=()), scene, form, struck)
     if (drove := braking_of(event, scene)) is not None:

@@ -23,6 +23,7 @@ from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, un
 from xavi_dialogue.explain.answers.ride.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.answers.suppositions.undone import is_paced_turn
 
 #: Actions that are not ways of driving to choose from.
 NOT_DRIVING = frozenset[ActionName](
@@ -76,6 +77,8 @@ def could(question: Whether, scene: Asked) -> Answer:
     assert event is not None
     if "late" in event.manner and event.action in BRAKING:
         return _braked(replace(event, modal=None, manner=()), scene)
+    if is_paced_turn(event):
+        return of_us(replace(event, modal="would"), scene, "could")
     if event.action in FASTER or "fast" in event.manner:
         return motions.slow(scene)
     return of_us(replace(event, modal="would"), scene, "could")

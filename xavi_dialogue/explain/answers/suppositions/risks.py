@@ -8,10 +8,26 @@ from msgspec.structs import replace
 
 from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.model import plan_of
-from xavi_dialogue.domain.answers import Answer, Identified, Options, SupposedOfUs
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Identified,
+    Measures,
+    Options,
+    SupposedOfOther,
+    SupposedOfUs,
+)
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.domain.meaning import HowSure, WhatIf, Where, Whether, Which
+from xavi_dialogue.domain.meaning import (
+    HowLong,
+    HowMuch,
+    HowSure,
+    WhatIf,
+    When,
+    Where,
+    Whether,
+    Which,
+)
 from xavi_dialogue.domain.terms import (
     At,
     Ego,
@@ -20,6 +36,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Is,
+    Measured,
     Nobody,
     Not,
     Now,
@@ -30,6 +47,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.measuring.durations import total_cost
 from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.against import EARLIER
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -58,7 +76,20 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
         asked = dataclasses.replace(asked, span=_hindered(question.supposed, asked))
     if question.then == HowSure():
         return _likelihood(question, asked)
-    return _met_by(question, asked) or supposing.what_if(question, asked)
+    found = _met_by(question, asked) or supposing.what_if(question, asked)
+    return _cost_of(found, question, asked) or found
+
+
+def _cost_of(found: Answer, question: WhatIf, asked: Asked) -> Answer | None:
+    """Return what a vehicle cost us, where the plan without it does not tell how much sooner."""
+    if not isinstance(found, SupposedOfOther) or not found.past or found.form != "arrival":
+        return None
+    of, negated = unwrapped(question.supposed)
+    gone = negated and isinstance(of, Exists)
+    if found.arrival is not None or found.others or not (gone or isinstance(of, Happens)):
+        return None
+    cost = total_cost(asked, Vehicle(found.vehicle), Window(asked.world.begin, asked.now))
+    return Measures((cost,)) if cost.value else None
 
 
 def _standing(question: WhatIf) -> WhatIf:
@@ -74,8 +105,10 @@ def _standing(question: WhatIf) -> WhatIf:
 
 def _hindered(supposed: Proposition, asked: Asked) -> Span | None:
     """Return when a vehicle that is supposed to have done something else last held us up."""
-    event = event_of(unwrapped(supposed)[0])
-    other = event.actor.number if event is not None and isinstance(event.actor, Vehicle) else None
+    of = unwrapped(supposed)[0]
+    event = event_of(of)
+    whom = of.thing if isinstance(of, Exists) else None if event is None else event.actor
+    other = whom.number if isinstance(whom, Vehicle) else None
     held = [one for one in restraints(asked.ride) if one.restraint.vehicle == other]
     last = held[-1] if other is not None and held else None
     return None if last is None else Span(last.begin, min(last.end, asked.now), said=False)
@@ -88,10 +121,14 @@ def _is_of_now(question: WhatIf) -> bool:
             pass
         case Not(Happens(Event(tense="past" | "perfect", time=Unsaid()))):
             pass
+        case Not(Exists(Vehicle())):
+            pass
         case _:
             return False
     match question.then:
         case Where(of=Ego(), time=Now() | At()) | Whether(that=Happens(Event("arrive", Ego()))):
+            return True
+        case When() | HowLong() | HowMuch(of=Measured(attribute="delay" | "time" | "duration")):
             return True
     return False
 

@@ -42,7 +42,6 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
     form_of,
     kept_ahead,
     of_us,
-    paced,
     stays_ahead,
     struck_in,
     undone,
@@ -60,7 +59,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     was_done,
     without_at,
 )
-from xavi_dialogue.explain.answers.suppositions.undone import GOING, is_sooner
+from xavi_dialogue.explain.answers.suppositions.undone import GOING, is_sooner, paced
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,
     is_faster,
@@ -112,7 +111,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if vehicle is not None:
         return _of_other(question, scene, of, vehicle, negated=negated)
     event = event or _faster(paced(of), question.then)
-    if event is not None and event.object is not None and "fast" in event.manner:
+    if event is not None and isinstance(event.object, Vehicle) and "fast" in event.manner:
         form = "could"
     if event is None or not is_own(event.actor) or _is_beyond(event):
         raise Unanswered(CannotSay("unsupported-condition"))
@@ -128,7 +127,8 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
 def _is_beyond(event: Event) -> bool:
     """Check whether no plan has it: to be there, or get out, here; to brake sooner or later."""
     paced_else = event.action in PACED and manner_of(event, "early", "late") is not None
-    return event.action == "arrive" or paced_else
+    shifted = event.action == "keep-lane" and event.side is not None  # "a bit more to the left"
+    return event.action == "arrive" or paced_else or shifted
 
 
 def _mistaken(

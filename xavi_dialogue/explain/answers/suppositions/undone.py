@@ -7,13 +7,22 @@ from msgspec import structs
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Question, Whether
 from xavi_dialogue.domain.reasons import Asking
-from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Proposition,
+    Related,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.occasions import occasion
-from xavi_dialogue.explain.answers.reference.reading import event_of, is_past, manner_of
+from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, is_past, manner_of
 from xavi_dialogue.explain.causes.plans.options import risky_onward
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.causes.vehicles.when import ROUNDING
@@ -80,6 +89,11 @@ def is_sooner(then: Question | None) -> bool:
     return manner_of(event, "first", "early", "fast") is not None
 
 
+def is_paced_turn(event: Event) -> bool:
+    """Check whether a turn is taken faster or slower: a manner of it that no plan has."""
+    return event.action in TURNING and manner_of(event, "fast", "slowly", "gently") is not None
+
+
 def is_halted(asked: Asked) -> bool:
     """Check whether we stand or wait now."""
     return any(e.action in HALTED for e in held(asked))
@@ -116,3 +130,28 @@ def as_going_on(event: Event, scene: Asked) -> Event:
         for one in slowing
     )  # fmt: skip
     return structs.replace(event, action="brake") if again else event
+
+
+def is_of_us(of: Proposition) -> bool:
+    """Check whether a proposition is of how we get on, or of where we are."""
+    match of:
+        case Happens(event=Event(action=action, actor=Ego())):
+            return action not in HINDERED
+        case Is(thing=Ego()) | Related(thing=Ego()):
+            return True
+    return False
+
+
+def paced(of: Proposition | None) -> Event | None:
+    """Read "if we were faster or slower" as driving that way."""
+    match of:
+        case Compares(left=Measured(attribute="speed", thing=thing, tense=tense), comparator=how):
+            if not is_own(thing):
+                return None
+            action: ActionName = "slow-down" if how == "less" else "go"
+            return Event(action, manner=("slowly" if how == "less" else "fast",), tense=tense)
+        case Is(state="fast" | "slow" as state, thing=thing, tense=tense) if is_own(thing):
+            if state == "slow":
+                return Event("slow-down", manner=("slowly",), tense=tense)
+            return Event("go", manner=("fast",), tense=tense)
+    return None

@@ -79,6 +79,9 @@ def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
 _RISKY: dict[Asking, Asking] = {"dangerous": "crash", "riskier": "crash", "safer": "safe"}
 
 
+_BENDS = ("turn", "bend", "roundabout")
+
+
 def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     """Plan what can be said if we had not slowed down, or if we went now."""
     cause = answer.cause
@@ -89,7 +92,9 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     ahead = None
     if answer.ours is not None and answer.theirs is not None:
         ahead = answer.theirs - answer.ours
-    form = _RISKY.get(answer.form, answer.form)
+    form: str = _RISKY.get(answer.form, answer.form)
+    if form != "could" and not answer.going and cause is not None and cause.kind in _BENDS:
+        form = "paced"
     slots: dict[str, object] = {
         "who": None if not vehicle else Who(Vehicle(vehicle), time),
         "kind": None if cause is None else cause.kind,
