@@ -312,7 +312,7 @@ class Driver:
             events.append(_event("stopped-at-light", time, current, light=light))
         elif motion.speed > 3.0:
             self._stopped_at = None
-        if hindrance is not None and hindrance.how == "right-of-way":
+        if hindrance is not None and hindrance.how == "right-of-way" and light is None:
             if motion.speed < YIELDED and hindrance.vehicle != self._waiting_for:
                 self._waiting_for = hindrance.vehicle
                 events.append(_event("gave-way", time, current, hindrance.vehicle))

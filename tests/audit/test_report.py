@@ -217,7 +217,7 @@ def driven(folder: Path) -> Audit:
     shutil.copy(path, folder / "rides" / "0.gz")
     known = facts(
         scenario="s2", ride_hash=hashlib.sha256(path.read_bytes()).hexdigest(),
-        braking=Peak(4.0, 3.3), time_to_collision=None,
+        braking=Peak(4.0, 3.4), time_to_collision=None,
     )  # fmt: skip
     made = audit((known, answered()))
     source = msgspec.structs.replace(made.rides[0].source, place="s2")
@@ -229,7 +229,7 @@ def test_findings_lead_to_reports_beside_the_page(tmp_path: Path) -> None:
     summary = write(found, Store(tmp_path), 10, None, reports=1)
     (link,) = [one for one in elements(tmp_path / PAGE).links if one.startswith("reports/")]
     page = (tmp_path / link).read_text(encoding="utf-8")
-    assert "Incident report: Hardest braking at 3.3 s: s2" in page
+    assert "Incident report: Hardest braking at 3.4 s: s2" in page
     assert "planned again" in page
     assert summary.files[link] == hashlib.sha256(page.encode()).hexdigest()
     written = (tmp_path / link).stat().st_mtime_ns

@@ -273,7 +273,7 @@ def test_traces_are_checked_and_explained_without_a_car(tmp_path: Path) -> None:
     assert list(json.loads(told.stdout)) == KEYS
     checked = xavi("trace", "check", ride)
     assert checked.exit_code == 0
-    assert checked.stdout.startswith("20 decisions of 'car', from 0 to 19 s, xavi.plan_trace/2\n")
+    assert checked.stdout.startswith("19 decisions of 'car', from 0 to 18 s, xavi.plan_trace/2\n")
     known = read(Path(ride).read_bytes()).traces[3]
     (tmp_path / "roadless.json").write_bytes(encode(replace_field(known, road=None)))
     checked = xavi("trace", "check", str(tmp_path / "roadless.json"), "--json")
@@ -299,7 +299,7 @@ RIDE = Path(__file__).parents[2] / "transcripts" / "rides" / "s1-0.ride.jsonl.gz
         (b"", "the file is empty"),
         (gzip.decompress(RIDE.read_bytes()).partition(b"\n")[0], "the ride holds no decision"),
         (gzip.decompress(RIDE.read_bytes())[:30] + b"\n", "not a recorded ride: line 1: "),
-        (gzip.decompress(RIDE.read_bytes())[:-9], "not a recorded ride: line 39: "),
+        (gzip.decompress(RIDE.read_bytes())[:-9], "not a recorded ride: line 38: "),
         (RIDE.read_bytes()[:500], "it is cut off; copy the file again"),
         (b"\x89MCAP0\r\n", "it is a recording, which `xavi explain` and `xavi report` read"),
     ],

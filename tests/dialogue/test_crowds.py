@@ -108,8 +108,8 @@ def test_our_speed_in_a_turn_to_come_is_the_planned_one(text: str) -> None:
 
 
 def test_who_crossed_with_others_was_let_go_as_well() -> None:
-    told = Talk("junction-0", 55.0).hear("How many people did you let go first?")
-    assert "four pedestrians" in told
+    told = Talk("city-0", 55.0).hear("How many people did you let go first?")
+    assert "six pedestrians" in told
 
 
 @pytest.mark.parametrize(

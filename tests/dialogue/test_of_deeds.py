@@ -78,7 +78,7 @@ def test_speeds_that_are_said_tell_which_braking_is_meant(text: str, told: str) 
 def test_from_which_speed_is_asked_of_the_braking_just_told() -> None:
     talk = Talk("s4-0", 24.0)
     talk.say("why did you brake?")
-    assert "19 km/h" in talk.say("from what speed?").reply.text
+    assert "20 km/h" in talk.say("from what speed?").reply.text
 
 
 @pytest.mark.parametrize(

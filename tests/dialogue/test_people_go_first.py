@@ -37,15 +37,16 @@ def test_people_who_go_first_are_allowed_to_walk() -> None:
 
 
 @pytest.mark.parametrize(
-    ("whom", "told"),
+    ("ride", "whom", "told"),
     [
-        ("people", "There were four pedestrians that I let go first."),
-        ("bikes", "There was one bike that I let go first: the green bicycle"),
-        ("vehicles", "There were five vehicles that I let go first."),
+        ("city-0", "people", "There were six pedestrians that I let go first."),
+        ("junction-0", "people", "There was one pedestrian that I let go first"),
+        ("junction-0", "bikes", "There was one bike that I let go first: the green bicycle"),
+        ("junction-0", "vehicles", "There were two vehicles that I let go first."),
     ],
 )
-def test_as_many_are_counted_as_we_let_go_first(whom: str, told: str):
-    talk = Talk("junction-0", 60.0)
+def test_as_many_are_counted_as_we_let_go_first(ride: str, whom: str, told: str):
+    talk = Talk(ride, 60.0)
     assert talk.hear(f"How many {whom} did you let go first on this ride?").startswith(told)
 
 
@@ -73,13 +74,29 @@ def test_as_many_are_counted_as_are_expected_to_cross() -> None:
 )
 def test_a_list_has_all_whom_we_let_go_first(question: str) -> None:
     told = Talk("junction-0", 60.0).hear(question)
-    assert told.startswith(("Four times", "Five times"))
-    assert all(f"vehicle {number}" in told for number in (3, 8, 9, 10))
+    assert told.startswith("Twice")
+    assert all(f"vehicle {number}" in told for number in (3, 13))
 
 
-def test_who_let_people_go_first_gave_way() -> None:
-    told = Talk("junction-0", 20.0).hear("list everybody you gave way to")
-    assert "vehicle 8" in told
+@pytest.mark.parametrize(
+    "question",
+    ["Did you let anyone go first?", "Have you given way to anybody so far?",
+     "Who have you let go first?", "list everybody you gave way to"],
+)  # fmt: skip
+def test_those_who_crossed_while_our_light_was_red_were_not_let_go(question: str) -> None:
+    told = Talk("junction-0", 20.0).hear(question)
+    assert "not" in told
+    assert "vehicle" not in told
+
+
+@pytest.mark.parametrize(
+    "question", ["did you let anyone go first so far", "have you given way to anybody?"]
+)
+def test_whether_we_let_anybody_go_tells_who_they_were(question: str) -> None:
+    talk = Talk("junction-0", 60.0)
+    told = talk.hear(question)
+    assert all(f"vehicle {number}" in told for number in (3, 13))
+    assert "bicycle" in talk.hear("which ones?")
 
 
 @pytest.mark.parametrize("at", [6.0, 9.0])

@@ -117,7 +117,7 @@ def test_hard_braking_is_looked_for_in_the_whole_ride() -> None:
 def test_for_whom_we_braked_is_told_with_the_reason() -> None:
     for text in ("Did you brake for anybody?", "Did you slow down for someone?"):
         told = Talk("s4-0", 30.0).hear(text)
-        assert told.startswith("I braked at 0:19, because the black car (vehicle 4)"), text
+        assert told.startswith("I braked at 0:18, because the black car (vehicle 4)"), text
 
 
 def test_who_came_close_is_asked_of_all_that_were_ever_seen() -> None:

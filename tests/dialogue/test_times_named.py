@@ -19,7 +19,7 @@ from tests.dialogue.talking import Talk
         ("bend-0", "How hard did you brake for vehicle 1?", "We braked with up to 3.0 m/s"),
         ("junction-0", "Which light did you stop at?", "I stopped for the traffic light at 0:16"),
         ("junction-0", "When did the light turn amber?", "I have not seen it turn amber"),
-        ("junction-0", "How long was the light green?", "The traffic light was green for at least"),
+        ("junction-0", "How long was the light green?", "The traffic light has been green for"),
         (
             "junction-0",
             "Did the light turn red before 20 s?",

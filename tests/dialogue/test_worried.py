@@ -44,16 +44,21 @@ def test_names_the_people_in_front_of_us_where_it_is_asked_whether_it_is_safe() 
 
 
 @pytest.mark.parametrize(
-    ("at", "before", "reply"),
+    ("ride", "at", "before", "reply"),
     [
-        (10.0, "Who could hit us?", "Stopping carries a risk of 18 % of a collision with the"),
-        (9.0, "Where are we?", "The pedestrian (vehicle 8) will be in our way"),
-        (24.0, "Who could hit us?", "The green bicycle (vehicle 3) will be in our way"),
+        ("town-0", 21.5, "Who could hit us?", "Moving to the left lane carries a risk of 4 % of"),
+        ("junction-0", 9.0, "Where are we?", "The pedestrian (vehicle 8) will be in our way"),
+        (
+            "junction-0",
+            24.0,
+            "Who could hit us?",
+            "The green bicycle (vehicle 3) will be in our way",
+        ),
     ],
 )
 def test_who_worries_us_is_who_was_a_risk_else_who_will_be_in_our_way(
-    at: float, before: str, reply: str
+    ride: str, at: float, before: str, reply: str
 ) -> None:
-    talk = Talk("junction-0", at)
+    talk = Talk(ride, at)
     talk.hear(before)
     assert talk.hear("Who worries you most?").startswith(reply)

@@ -380,9 +380,8 @@ def test_who_may_cross_on_foot_is_told_beside_the_right_of_way() -> None:
             goals = next(p.goals for p in traces(LIGHT)[number].predictions if p.vehicle == who)
             chance = sum(goal.probability for goal in goals if goal.kind == "cross")
             assert figure.value == pytest.approx(chance, abs=1e-3)
-    gave = {one.vehicle for one in found.involved if "gave-way" in one.roles}
-    assert gave == {8, 9, 10}
-    assert gave <= {who for known in crossing.values() for who in known}
+    assert not any("gave-way" in one.roles for one in found.involved)  # the light held us
+    assert {8, 9, 10} <= {who for known in crossing.values() for who in known}
 
 
 def test_removing_the_other_removes_the_collision() -> None:
@@ -646,7 +645,7 @@ def test_two_are_removed_together() -> None:
         for one in case.tested
         if one.supposed.kind == "pair"
     ]
-    assert {one.supposed.pair for one in pairs} == {(8, 9), (8, 10), (9, 10)}
+    assert {one.supposed.pair for one in pairs} == {(4, 8), (4, 9), (8, 9)}
     trace = traces(LIGHT)[pairs[0].decision]
     need = NeedRollout(trace_id=trace.trace_id, removed=pairs[0].supposed.pair)
     assert pairs[0].trace == ride(LIGHT).again(trace, need).trace_id

@@ -131,7 +131,7 @@ def test_people_beside_the_crossing_of_our_exit_do_not() -> None:
     ],
 )
 def test_it_is_not_asked_of_a_halt_before_somebody_was_seen(text: str) -> None:
-    told = Talk("junction-0", 43.0).hear(text)
+    told = Talk("junction-0", 42.5).hear(text)
     assert "in view" not in told
     assert "(vehicle 13)" in told
     assert "slowed down" in told

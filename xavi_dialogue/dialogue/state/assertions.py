@@ -30,11 +30,13 @@ from xavi_dialogue.domain.terms import (
     At,
     Event,
     Happens,
+    Has,
     Not,
     Proposition,
     Tense,
     Vehicle,
 )
+from xavi_dialogue.domain.traffic_lights import LightTold, Shown
 
 
 def asserted(turn: Turn) -> Iterator[Proposition]:
@@ -78,6 +80,8 @@ def _answered(part: Part) -> Iterator[Proposition]:
             yield from (Happens(Event(a, tense=tense, modal="would")) for a in then[:1])
         case Grounds(vehicle=vehicle, actions=actions) if actions:
             yield Happens(Event(actions[-1], Vehicle(vehicle), tense="future", modal="will"))
+        case LightTold(shown=Shown(light=light, colour=colour), whose=None):
+            yield Has("colour", colour, light)
         case PlanAhead(steps=steps):
             yield from (Happens(Event(a, tense="future", modal="will")) for a, _ in steps[:1])
         case Activity(doing=doing) if doing:

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Now,
     Proposition,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.propositions import reasons
@@ -23,8 +24,8 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.answers.ride.delays import let_past
 from xavi_dialogue.explain.facts.looks import STILL
+from xavi_dialogue.explain.facts.world import LETTING_GO
 
-YIELDED: Final = frozenset[ActionName](("give-way", "let-go"))
 #: What of the road makes us slow down, as kinds of reasons.
 ROADS: Final = ("turn", "bend", "roundabout", "give-way-line", "hidden", "lane-end", "limit")
 STANDING: Final = frozenset[ActionName](("stop", "stand", "wait"))
@@ -38,9 +39,11 @@ def what_for(question: Which, scene: Asked) -> Answer:
     """
     event = _deed(question.such)
     several = let_past(event, scene)
-    least = 1 if event.action in YIELDED and event.tense != "present" else 2
+    least = 1 if event.action in LETTING_GO and event.tense != "present" else 2
     if len(several) >= least:
         return Identified(several, question.such)
+    if event.action in LETTING_GO and event.time == WholeRide() and event.modal is None:
+        return Identified((), question.such, none=True)
     alone = replace(event, object=None)
     if event.action not in STANDING or event.tense != "present":
         return reasons.why(Why(Happens(alone)), scene)

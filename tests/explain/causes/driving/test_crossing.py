@@ -64,22 +64,24 @@ def test_who_had_crossed_before_counts_for_a_moment(begin: float, known: bool) -
 
 
 def test_setting_off_takes_a_run_up() -> None:
-    """Speeding up by 2 m/s2 for 58 m: 7 s up to 14 m/s, or 3 s up to 6 m/s, and then so on."""
+    """Speeding up by 2.3 m/s2 for 58 m: up to 14 m/s or to 6 m/s, and then so on."""
     found = met(0.0, setting_off=True)
     assert found is not None
-    assert found.ours == pytest.approx(7.0 + 9.0 / 14.0, abs=0.05)
+    assert found.ours == pytest.approx(14.0 / 2.3 + (58.0 - 98.0 / 2.3) / 14.0, abs=0.05)
     bounded = met(0.0, setting_off=True, limit=6.0)
     assert bounded is not None
-    assert bounded.ours == pytest.approx(3.0 + 49.0 / 6.0, abs=0.05)
+    assert bounded.ours == pytest.approx(6.0 / 2.3 + (58.0 - 18.0 / 2.3) / 6.0, abs=0.05)
     rolling = met(6.0, setting_off=True, limit=20.0)  # it does not come to drive so fast
     assert rolling is not None
-    assert rolling.ours == pytest.approx((math.sqrt(268.0) - 6.0) / 2.0, abs=0.05)
+    assert rolling.ours == pytest.approx((math.sqrt(36.0 + 4.6 * 58.0) - 6.0) / 2.3, abs=0.05)
     fast = met(10.0, setting_off=True, limit=8.0)
     assert fast is not None
     assert fast.ours == pytest.approx(5.8, abs=0.01)
     unknown = met(0.0, setting_off=True, limit=None)
     assert unknown is not None
-    assert unknown.ours == pytest.approx(6.95 + 9.7 / 13.9, abs=0.01)  # up to 13.9 m/s
+    assert unknown.ours == pytest.approx(
+        13.9 / 2.3 + (58.0 - 13.9**2 / 4.6) / 13.9, abs=0.01
+    )  # up to 13.9 m/s
 
 
 def planning(path: tuple[tuple[float, float], ...], *chances: float) -> Ride:

@@ -80,7 +80,7 @@ def test_who_was_let_go_lately(waited: float, known: bool) -> None:
     assert found == ((CrossingVehicle(2, "vehicle", gone=True),) if known else ())
 
 
-@pytest.mark.parametrize(("vehicle", "time", "found"), [(5, 26.0, True), (99, 26.0, False)])
+@pytest.mark.parametrize(("vehicle", "time", "found"), [(5, 28.0, True), (99, 28.0, False)])
 def test_who_is_reckoned_with_was_in_the_way_in_a_drive_imagined(
     vehicle: int, time: float, found: bool
 ) -> None:

@@ -79,6 +79,12 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_seen.unseen)
         case HowSure(of) if lights_met.wanted(of, scene, lights_met.COMING) is not None:
             return _asked(lights_met.how_sure)
+        case HowSure(of) if (
+            isinstance(of, Has)
+            and stated(of) is not None
+            and (not lights_ahead.is_to_come(of, scene))
+        ):
+            return _asked(lights_seen.how_sure)
         case HowSure(of) if of is not None and lights_ahead.concerns(of):
             return _asked(lights_ahead.how_sure)
         case When(of) | HowLong(of) if lights_ahead.until_we_go(of, scene):

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
     HowMuch,
+    HowSure,
     Identify,
     When,
     Whether,
@@ -78,6 +79,12 @@ def claimed(act: Claim, scene: Asked) -> Answer:
 def whether(question: Whether, scene: Asked) -> Answer:
     """Return whether a light shows or showed something, or was there."""
     return _judged(question.that, scene, claim=False)
+
+
+def how_sure(question: HowSure, scene: Asked) -> Answer:
+    """Return whether a light shows what we are asked to be sure of: it is in view or was."""
+    assert question.of is not None
+    return _judged(question.of, scene, claim=False)
 
 
 def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:

@@ -29,7 +29,9 @@ def _with_others(asked: Asked, who: Vehicle) -> list[Episode]:
     held = [
         one
         for one in restraints(asked.ride)
-        if one.restraint.by == "right-of-way" and _walks(asked, one.restraint.vehicle)
+        if one.restraint.by == "right-of-way"
+        and one.restraint.light is None
+        and _walks(asked, one.restraint.vehicle)
     ]
     return [
         Episode(Ego(), "give-way", one.begin, one.end if one.end <= asked.now else None, who)
@@ -50,7 +52,9 @@ def let_first(asked: Asked, vehicles: Iterable[int]) -> tuple[Episode, ...]:
         Episode(Ego(), "give-way", one.begin, None if one.end > asked.now else one.end, who)
         for who in map(Vehicle, vehicles)
         for one in held_by(asked.ride, who.number, asked.world.begin, asked.now)
-        if min(one.end, asked.now) - one.begin >= SHORTEST and _went(asked, who.number, one)
+        if one.restraint.light is None  # else the light holds us, though others go
+        and min(one.end, asked.now) - one.begin >= SHORTEST
+        and _went(asked, who.number, one)
     ]
     return tuple(sorted(found, key=lambda e: e.begin))
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from xavi_dialogue.domain.terms import Ego, Proposition, Thing
+from xavi_dialogue.domain.terms import Ego, Feature, Proposition, Thing
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.senses import Match
@@ -27,6 +27,12 @@ class Special:
     def object(self) -> Sem | None:
         """Return the object."""
         return self.match.object
+
+    @property
+    def light(self) -> Feature | None:
+        """Return the traffic light at which it happens: "how long did we lose at that light"."""
+        at = self.match.phrases.get("at")
+        return at if isinstance(at, Feature) and at.kind == "light" else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -200,12 +200,12 @@ def _cost(special: Special) -> Proposition:
     attribute: Any = "duration" if takes or special.name == "last" else "delay"
     if special.name == "delay" and isinstance(special.subject, Ego):
         return Happens(event_of(special, "slow-down", None))
-    whose = Ego() if takes and special.subject == Pronoun("it") else special.subject
+    ours = takes and special.subject == Pronoun("it")
+    whose = Ego() if ours else special.light or special.subject
     if isinstance(special.clause.subject, Noun) and special.clause.subject.key == "ride":
         whose = Ego()
         time = WholeRide() if isinstance(time, Unsaid) else time
-    by = special.match.phrases.get("by")
-    subject = special.clause.subject
+    by, subject = special.match.phrases.get("by"), special.clause.subject
     deed = by if isinstance(by, Event) else subject if isinstance(subject, Event) else None
     if deed is not None:
         deed = with_fields(deed, tense=tense_of(special), modal=special.clause.modal)

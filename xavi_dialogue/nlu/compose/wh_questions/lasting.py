@@ -226,7 +226,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     if isinstance(value, Special) and value.name in SAVING:
         return measured("delay", clause, actor, event=spent_by(clause, value) or saving(clause))
     if isinstance(value, Special) and value.name in ("cost", "delay"):
-        return measured("delay", clause, actor, event=spent_by(clause, value))
+        return measured("delay", clause, value.light or actor, event=spent_by(clause, value))
     if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
         return _taking(clause, value, actor)
     if isinstance(value, Special) and value.name in _SEEING:

@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Has,
     Is,
@@ -117,10 +118,19 @@ def followed(spoken: Question, g: Grounder) -> Question:
             done = replace(done, object=None)  # "that decision", "the decision at 40 s"
             timed = isinstance(spoken.time, At | AtDecision)
             return replace(spoken, of=Happens(replace(done, time=spoken.time) if timed else done))
+        case HowSure(of=None, changed=True) if (light := _light_spoken_of(asked)) is not None:
+            g.notes.leaned = True  # "what colour is it? - when will that change?"
+            return When(Happens(Event("turn-colour", light, tense="future")))
         case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _light_spoken_of(question: Question | None) -> Feature | None:
+    """Return the traffic light that a question is about; None if it is about none."""
+    found = first(question, Feature)
+    return found if found is not None and found.kind == "light" else None
 
 
 def _suspecting(spoken: Question, g: Grounder) -> Why | None:

@@ -53,6 +53,7 @@ _DELAYED: Final = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), time=W
 _ANYTHING: Final = Described(definite=False)
 _ANYBODY: Final = (_ANYTHING, Described(kind="car", definite=False))
 _GOING: Final = frozenset(("go", "move", "turn"))
+_LETTING_GO: Final = frozenset(("give-way", "let-go"))
 _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 
 
@@ -77,6 +78,9 @@ def of_trip(spoken: Question) -> Question | None:
             return HowMuch(Measured("distance", light))  # "is it far to the light?"
         case Whether(that=Is(state="present", thing=Destination(), tense="present" | "future")):
             return Whether(Happens(Event("arrive", Ego(), tense="perfect")))  # "is the end soon?"
+        case Whether(that=Happens(event=of)) if _let_anybody(of):
+            of = replace(of, object=Wanted(), time=WholeRide())
+            return Which(Wanted(), Happens(of))  # "did you let anyone go first?"
         case Whether(that=that):
             meant = _whether(that)
             return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)
@@ -113,6 +117,13 @@ def of_trip(spoken: Question) -> Question | None:
         case When(of=Compares(left=Measured(attribute="delay") as left)):
             return HowMuch(left)  # "what time did that cost us?"
     return _listed(spoken)
+
+
+def _let_anybody(of: Event) -> bool:
+    """Check whether an event is that we let just anybody go first, at any time of the ride."""
+    anybody = of.object == _ANYTHING and isinstance(of.time, Unsaid | WholeRide)
+    ours = of.actor == Ego() and of.action in _LETTING_GO and of.tense in ("past", "perfect")
+    return anybody and ours
 
 
 def _met(whom: Described | Wanted, such: Any) -> bool:

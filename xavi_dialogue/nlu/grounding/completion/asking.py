@@ -17,6 +17,7 @@ from xavi_dialogue.domain.meaning import (
     Question,
     When,
     Where,
+    Whether,
     Which,
     Whither,
     Why,
@@ -26,9 +27,12 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
+    Has,
     Is,
     Pronoun,
+    Proposition,
     Unsaid,
     Vehicle,
     Wanted,
@@ -50,6 +54,7 @@ FOR_WHOM: Final = frozenset(
     ("wait", "give-way", "let-go", "brake", "stop", "slow-down", "follow", "stand", "swerve",
      "signal", "honk", "flash")
 )  # fmt: skip
+_ONES: Final = Described(plural=True, definite=False)  # "which ones?"
 
 
 def _of_our_way(question: Question | None) -> bool:
@@ -92,7 +97,7 @@ def asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
         case "when" if isinstance(question, Whither) and isinstance(question.actor, Vehicle):
             return Ask(HowKnow())  # the evidence tells since when it is held to be likely
     thing = spoken.thing
-    of = questioned(g.context) if spoken.form != "sure" else asserted(g.context)
+    of = asserted(g.context) if spoken.form == "sure" else _put(question, g)
     if spoken.event is not None:
         of = with_event(of, spoken.event)
     if thing is not None and of is not None:
@@ -112,10 +117,18 @@ def asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     return None
 
 
+def _put(question: Question | None, g: Grounder) -> Proposition | None:
+    """Return what a question is about; if it asked what a light shows, what it was said to show."""
+    match question:
+        case Whether(that=Has(attribute="colour", thing=Feature(kind="light"))):
+            return asserted(g.context)
+    return questioned(g.context)
+
+
 def _which(spoken: Elliptic, question: Question | None, g: Grounder) -> Act:
     """Ask which one, or who, is meant, or for whom it was done."""
     thing, event = spoken.thing, main_event(question)
-    if thing is None and isinstance(question, Which):
+    if thing in (None, _ONES) and isinstance(question, Which):
         return Ask(question)
     if thing is None and isinstance(question, Why) and question.suspect is not None:
         return Ask(replace(question, suspect=None, rival=None, alone=False))  # "who then?"
