@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import zip_longest
 
 import numpy as np
 
@@ -42,12 +42,16 @@ def light_courses(
 
 
 def _along(roads: Roads, edges: Sequence[str]) -> Iterator[str]:
-    """Yield the controllers of the junctions between edges, in order."""
+    """Yield the controllers of the junctions between edges and after the last one, in order.
+
+    A way may end before a light: its queue matters all the same.
+    """
     network = roads.network
-    for edge, after in pairwise(edges):
+    for edge, after in zip_longest(edges, edges[1:]):
         for lane in network.edge_lanes(edge):
             for link in network.links_from(lane.id):
-                if network.lanes[link.to_lane].edge == after and isinstance(link.control, Signal):
+                leads = after is None or network.lanes[link.to_lane].edge == after
+                if leads and isinstance(link.control, Signal):
                     yield link.control.controller
 
 
