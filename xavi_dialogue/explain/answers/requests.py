@@ -69,7 +69,7 @@ def request(act: Request, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is about something unknown; or rollouts are needed.
     """
-    act = replace(act, event=past_leader(asked, _to_lane(_paced(act.event))))
+    act = replace(act, event=past_leader(asked, _to_lane(_paced(asked, act.event))))
     if act.negated and "close" in act.event.manner:  # "do not get so close"
         act = replace(act, event=replace(act.event, action="keep-distance"), negated=False)
     act = replace(act, event=_braking(asked, act.event))
@@ -126,8 +126,13 @@ def _asks_manner(act: Request) -> bool:
     return gentle and not act.negated and act.event.action in DRIVING | {"brake", "turn"}
 
 
-def _paced(event: Event) -> Event:
-    """Read driving slowly past somebody, or somewhere, as a wish about our speed."""
+def _paced(asked: Asked, event: Event) -> Event:
+    """Read driving slowly past somebody, or somewhere, as a wish about our speed.
+
+    Where we stand, it is a wish to drive on: "creep forward a bit".
+    """
+    if event.action in ("move", "go") and "slowly" in event.manner and stands(asked):
+        return replace(event, action="go", manner=())
     if event.action in PACED and "slowly" in event.manner:
         return replace(event, action="slow-down", object=None, manner=())
     return event

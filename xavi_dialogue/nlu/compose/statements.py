@@ -38,7 +38,7 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Vehicle,
 )
-from xavi_dialogue.domain.vocabulary import Manner
+from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.nlu.compose.alternatives.polar import judged
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -277,9 +277,15 @@ def _thinks(value: Special) -> bool:
 
 def _in_our_place(of: Proposition, clause: Clause) -> Proposition:
     """Take what "any driver would have done" for what we should have."""
+    advised = {"modal-might", "semi-want"} <= {*clause.aux}
     match of:
         case Not(content=content):
             return Not(_in_our_place(content, clause))
+        case Happens(event=Event(actor=Ego(), modal="might") as event) if advised:
+            return Happens(replace(event, modal="should"))  # "you might want to slow down"
+        case Related("on", Ego(), Lane("left" | "right" as side)) if clause.modal == "should":
+            moving: ActionName = "change-left" if side == "left" else "change-right"
+            return Happens(Event(moving, tense="present", modal="should"))
         case Happens(event=Event(modal="would", tense="past") as event) if (
             clause.subject == Passenger() and isinstance(event.actor, Ego | Passenger)
         ):  # "I would not have gone there"

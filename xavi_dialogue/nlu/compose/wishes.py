@@ -114,7 +114,7 @@ def wished(of: Proposition, clause: Clause, *, wishing: bool) -> Act | None:
     event = content.event
     own = event.modal == "want" and (event.tense == "present" or alights(clause))
     own = own and isinstance(clause.subject, Passenger)
-    if not (wishing or own) or event.action == "do":
+    if not (wishing or own) or (event.action == "do" and not negated):
         return None
     return request(event, clause, negated=negated)
 

@@ -48,7 +48,14 @@ def free(of: Is, asked: Asked) -> Finding:
 
 def in_our_way_ahead(asked: Asked, seen: Iterable[Look], at: float) -> list[Look]:
     """Keep those who are ahead of us in our lane at a time [s], or on foot right in front."""
-    ours = {look.vehicle for look in in_lane_ahead(asked.ride, asked.world, at, IN_FRONT)}
+    road = asked.world.road(at)
+    places = {} if road is None else road.places
+    edges = {v: place.edge for v, place in places.items()}
+    ours = {
+        look.vehicle
+        for look in in_lane_ahead(asked.ride, asked.world, at, IN_FRONT)
+        if edges.get(look.vehicle) == edges.get(EGO)  # and not beyond a junction
+    }
     return [
         look
         for look in seen

@@ -247,3 +247,18 @@ def place_time(key: str, sem: object) -> Time | None:
         return None
     relation: Any = key if key in ("before", "after", "until", "since") else "during"
     return Relative(relation, sem)
+
+
+def at_place(clause: Clause) -> Time:
+    """Take "at the second junction" for the time at which we were there."""
+    untimed = clause.tense == "past" and isinstance(clause.time, Unsaid)
+    places = (c.sem for c in clause.complements if untimed and c.key in ("at", "in"))
+    found = (Relative("during", of) for sem in places if (of := _anchor(sem)) is not None)
+    return next(found, clause.time)
+
+
+def _anchor(place: object) -> Junction | Event | None:
+    """Give what a place is known by: a junction as such, a bend by our turn in it."""
+    if isinstance(place, Feature) and place.kind == "bend":
+        return Event("turn", time=Unsaid() if place.rank is None else Rank(place.rank))
+    return place if isinstance(place, Junction) else None

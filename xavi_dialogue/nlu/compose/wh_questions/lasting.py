@@ -34,7 +34,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
-from xavi_dialogue.nlu.compose.clauses.times import is_come_to
+from xavi_dialogue.nlu.compose.clauses.times import at_place, is_come_to
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.verbs.lights import colour_of
@@ -75,7 +75,7 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     extreme = more.pop("extreme", None)
     timed_by(clause)
     time = more.pop("time", clause.time)
-    time = _at_place(clause) if isinstance(time, Unsaid) else time
+    time = at_place(clause) if isinstance(time, Unsaid) else time
     if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
         thing = _postponed(clause)
     thing = (blamed_for(clause) if attribute == "delay" else None) or thing
@@ -101,14 +101,6 @@ def is_aimed(clause: Clause, actor: Thing | None) -> bool:
     ours = isinstance(actor, Ego) and clause.tense == "present" and clause.modal in (None, "want")
     aims = clause.verb is not None and clause.verb.key in _AIMING
     return ours and (aims or "semi-want" in clause.aux)
-
-
-def _at_place(clause: Clause) -> Time:
-    """Take "at the second junction" for the time at which we were there."""
-    untimed = clause.tense == "past" and isinstance(clause.time, Unsaid)
-    places = (c.sem for c in clause.complements if untimed and c.key in ("at", "in"))
-    found = (Relative("during", place) for place in places if isinstance(place, Junction))
-    return next(found, clause.time)
 
 
 def _is_deed(thing: Thing) -> bool:

@@ -39,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Now,
     Pronoun,
     Proposition,
+    Related,
     That,
     Unsaid,
     Vehicle,
@@ -171,6 +172,8 @@ def _stopping(spoken: Question, g: Grounder) -> Why | None:
         case Which(Wanted(), Happens(Event("block" | "stop", Wanted(), Ego(), tense="present"))):
             pass
         case Which(Wanted(), Happens(Event("wait", Ego(), Wanted(), tense="present"))):
+            pass
+        case Which(Wanted(), Related("in-the-way-of", Wanted(), Ego())):
             pass
         case Why(That() | Not(That() | Happens(Event("do", Ego(), Pronoun() | None)))):
             pass

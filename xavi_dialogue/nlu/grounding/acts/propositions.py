@@ -66,7 +66,7 @@ from xavi_dialogue.nlu.grounding.events.afoot import walked
 from xavi_dialogue.nlu.grounding.events.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.events.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.events.timing import believed_then
-from xavi_dialogue.nlu.grounding.events.windows import pointed
+from xavi_dialogue.nlu.grounding.events.windows import is_halt, pointed
 from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
@@ -154,7 +154,8 @@ def _related(spoken: Related, g: Grounder, outer: Window | None) -> Related:
     """Ground where one thing is beside another."""
     if spoken.relation == "same-as" and isinstance(spoken.time, Back):
         spoken = replace(spoken, time=Unsaid())  # "the same car as before"
-    window = at_moment(spoken.time, spoken.tense, g, outer)
+    found = timed if is_halt(spoken.time) else at_moment  # all the while that we stood there
+    window = found(spoken.time, spoken.tense, g, outer)
     thing = pointed_at(spoken, g) or g.thing(spoken.thing, window)
     place = _place(spoken, g)
     same = spoken.relation == "same-as" and is_such(thing, place, g, window)

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
+    At,
     Both,
     Compares,
     Described,
@@ -46,6 +47,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unsaid,
     WholeRide,
+    Within,
 )
 from xavi_dialogue.nlu.grounding.acts.follow_ups import TURNS, compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others, still_here
@@ -61,6 +63,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
+from xavi_dialogue.nlu.grounding.events.spans import focus
 from xavi_dialogue.nlu.grounding.events.timing import of_doing
 from xavi_dialogue.nlu.grounding.things.lights import among
 
@@ -138,6 +141,9 @@ def _as_it_was(it: Thing, time: Time, g: Grounder) -> Question:
     if not isinstance(asked, HowMuch):
         return Doing(it, time, "past")
     g.notes.leaned = True
+    told = focus(g.context.discourse)
+    if isinstance(time, Within) and time.seconds is not None and told is not None:
+        time = At(told[1] + time.seconds)  # "and a second later?"
     then = replace(asked.of, time=time, tense="past")
     return HowMuch(then, asked.extreme)
 

@@ -4,10 +4,13 @@ from typing import Final
 
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Between, Ego, Next
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import Between, Ego, Event, Has, Is, Measured, Next, Related
 from xavi_dialogue.nlu.grounding.context import Context, Window
 
 SOON: Final = 15.0  # [s] that "soon" and "next" reach ahead
+PAST_BY: Final = 1.5  # [s] after which a moment that was spoken of as present is past ...
+SPOKEN: Final = 20.0  # ... and up to which it is "that time"
 SLACK: Final = 2.5  # [s] by which a time that was said may be off
 BESIDE: Final = 8.0  # [s] before or after an event
 JUST_BEFORE: Final = 0.2  # [s] before something that are still of it
@@ -33,6 +36,15 @@ Interval = tuple[float, float]
 def focus(discourse: Discourse) -> Interval | None:
     """Give the episode that "then" and "that" reach back to."""
     return discourse.episode
+
+
+def asked_then(context: Context) -> Interval | None:
+    """Give the moment of the last question, if it was of the present that is past by now."""
+    asked, question = context.discourse.asked_at, context.discourse.question
+    if asked is None or not PAST_BY < context.now - asked <= SPOKEN:
+        return None
+    of = first(question, (Event, Measured, Is, Related, Has))
+    return (asked, asked) if getattr(of, "tense", None) == "present" else None
 
 
 def between(begin: float, end: float, now: float) -> Window:

@@ -27,6 +27,7 @@ from xavi_dialogue.nlu.grounding.events.anchors import relative
 from xavi_dialogue.nlu.grounding.events.spans import (
     SLACK,
     SOON,
+    asked_then,
     beside,
     between,
     coming,
@@ -40,6 +41,7 @@ JUST_NOW: Final = 5.0  # [s] that "just now" reaches back
 RECENT: Final = 3.0  # [s] within which what is over still counts as present
 OPENING: Final = 8.0  # [s] that the beginning of the ride lasts
 HARD: Final = 4.0  # [m/s2] from which braking is felt as sudden
+HALTS: Final = frozenset(("stop", "stand", "wait"))
 #: Deeds at the middle of which they are thought to happen; others at their beginning.
 AT_MIDDLE: Final = frozenset(
     ("pass", "overtake", "cross", "turn", "exit-left", "exit-right", "exit-straight", "head",
@@ -137,6 +139,13 @@ def pointed(time: Time, found: Window) -> Window:
     return replace(found, begin=at, end=at, term=At(at))
 
 
+def is_halt(time: Time) -> bool:
+    """Tell whether a time is that of our standing still: "while we stood there"."""
+    during = isinstance(time, Relative) and time.relation == "during"
+    halt = time.anchor if isinstance(time, Relative) and during else None
+    return isinstance(halt, Event) and halt.actor == Ego() and halt.action in HALTS
+
+
 def _at(at: float, now: float) -> Window:
     search = (at - SLACK, at + SLACK)
     return Window(at, at, At(at), search, True, ahead=at > now + 0.5, prefer="nearest")
@@ -155,6 +164,8 @@ def _back(relation: str, g: Grounder) -> Window:
     context = g.context
     g.notes.leaned = True
     interval = focus(context.discourse)
+    if relation == "during" and (then := asked_then(context)) is not None:
+        return replace(beside(relation, then, context), whole=False)
     if interval is None or context.stale:
         interval = notable(context) or interval
         if relation == "before":
