@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 
 from planner.kernels.course import Codes
+from planner.kernels.limits import OPEN
 from planner.manoeuvres.actions import ActionPlan, Situation, expand
 from planner.motion.obstacles import Obstacle
 from planner.motion.tracks import links_of
@@ -18,7 +19,7 @@ from planner.record.trace import Action
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
 from planner.traffic_lights.observations import Watched
-from planner.traffic_lights.signals import MEANING, OPEN, Lights
+from planner.traffic_lights.signals import MEANING, Lights
 from sim.roads.lanes import Lane, Link
 from sim.roads.lines import point_at
 from sim.roads.network import Direction, Location, Network

@@ -78,7 +78,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = ahead_of(completed(_by_anybody(spoken), g, mode))
+    spoken = ahead_of(completed(_by_anybody(spoken), g, mode), g)
     spoken = afoot(out_of(_at_junction(spoken), g), g)
     spoken = _by_us(spoken, g)
     if spoken.action == "signal" and isinstance(spoken.object, Pronoun):

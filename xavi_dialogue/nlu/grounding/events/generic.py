@@ -36,6 +36,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.things.passing import to_pass
 
 Site: TypeAlias = Literal["ring", "before-ring", "junction", "lanes", "road"]
 
@@ -149,8 +150,9 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
     return replace(event, action="change-left", object=None, where=where)
 
 
-def ahead_of(event: Event) -> Event:
-    """Read "you turned before the lorry" as that we went first, and not as a time."""
+def ahead_of(event: Event, g: Grounder) -> Event:
+    """Read "you turned before the lorry" as that we went first, "overtake him" of who is ahead."""
+    event = to_pass(event, g.context)
     match event.time:
         case Relative(relation="before", anchor=Described() | Pronoun() | Vehicle() as whom):
             ours = isinstance(event.actor, Ego) and event.action in (*_TURNS, "go", "enter")

@@ -4,10 +4,12 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.terms import Described, Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Described, Ego, Event, Pronoun, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName, Bearing, Relation
 from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
 PASSING: Final = frozenset[ActionName](("pass", "overtake"))
 BESIDE: Final = 1.8  # [m] to the side from which somebody is in another lane
@@ -26,6 +28,26 @@ def placed(thing: Described) -> Described:
     if side is None or where.to != Ego() or event.action not in PASSING:
         return thing
     return replace(thing, bearing=side, doing=replace(event, where=None))
+
+
+def to_pass(event: Event, context: Context) -> Event:
+    """Take "overtake him" of who is ahead of us: whom we spoke of, else the next in our lane."""
+    to_come = event.tense in ("present", "future") and event.actor == Ego()
+    if not to_come or event.action not in PASSING or not isinstance(event.object, Pronoun):
+        return event
+    ahead = [
+        look
+        for vehicle in context.in_view(context.now)
+        if (look := context.look(vehicle, context.now)) is not None
+        if look.bearing.startswith("ahead") and not look.oncoming and look.kind not in ON_FOOT
+    ]
+    spoken = {vehicle for vehicle, _ in vehicles_of(context.discourse.mentions)}
+    if any(look.vehicle in spoken for look in ahead):
+        return event
+    leaders = [look for look in ahead if look.bearing == "ahead"]
+    if not leaders:
+        return event
+    return replace(event, object=Vehicle(min(leaders, key=lambda one: one.distance).vehicle))
 
 
 def comes(thing: Described) -> bool:
