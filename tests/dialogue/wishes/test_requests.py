@@ -26,6 +26,10 @@ STANDING, BOUND = ("junction-0", 20.0), ("town-0", 30.0)
         (CROWDED, "move over to the left lane", "end in a collision with the black car"),
         (STANDING, "beep and drive on", "cannot honk. Not yet: the traffic light"),
         (STANDING, "honk and go!", "cannot honk. Not yet: the traffic light"),
+        (LATE, "you might want to keep more distance", "cannot keep more distance on request"),
+        (LATE, "You could brake just to be careful.", "cannot brake on request"),
+        (CROWDED, "you should be in the left lane", "end in a collision with the black car"),
+        (STANDING, "don't go yet!", "cannot wait on request. The traffic light"),
         (STANDING, "you should wait for those people", "cannot wait for"),
     ],
 )

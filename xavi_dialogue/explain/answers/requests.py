@@ -1,5 +1,7 @@
 """Requests: what the car does instead of what it is asked to do, or why it cannot do that."""
 
+import dataclasses
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import (
@@ -59,7 +61,8 @@ TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
 def advises(event: Event) -> bool:
     """Check whether that we should do something is a wish about our driving from now on."""
     owed = event.modal == "must" and event.action in GENTLER | NEARNESS
-    to_come = event.tense in ("present", "future") and (owed or event.modal == "should")
+    advised = event.modal == "should" or (event.modal == "could" and event.action in GENTLER)
+    to_come = event.tense in ("present", "future") and (owed or advised)
     return to_come and isinstance(event.actor, Ego) and event.action in ADVISED
 
 
@@ -69,10 +72,13 @@ def request(act: Request, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is about something unknown; or rollouts are needed.
     """
+    asked = dataclasses.replace(asked, span=None)  # it is of our driving from now on
     act = replace(act, event=past_leader(asked, _to_lane(_paced(asked, act.event))))
     if act.negated and "close" in act.event.manner:  # "do not get so close"
         act = replace(act, event=replace(act.event, action="keep-distance"), negated=False)
     act = replace(act, event=_braking(asked, act.event))
+    if act.negated and act.event.action in ("go", "move") and stands(asked):
+        act = Request(replace(act.event, action="wait", manner=()))  # "don't drive on yet"
     event = act.event
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)

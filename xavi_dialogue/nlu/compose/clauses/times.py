@@ -252,7 +252,7 @@ def place_time(key: str, sem: object) -> Time | None:
 def at_place(clause: Clause) -> Time:
     """Take "at the second junction" for the time at which we were there."""
     untimed = clause.tense == "past" and isinstance(clause.time, Unsaid)
-    places = (c.sem for c in clause.complements if untimed and c.key in ("at", "in"))
+    places = (c.sem for c in clause.complements if untimed and c.key in ("at", "in", "over"))
     found = (Relative("during", of) for sem in places if (of := _anchor(sem)) is not None)
     return next(found, clause.time)
 

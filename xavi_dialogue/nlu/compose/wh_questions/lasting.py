@@ -160,7 +160,7 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
         return Relative("during", through)
     if event.action in DRIVING and _round(clause) and isinstance(clause.time, Unsaid):
         return Relative("during", Event("turn", event.actor, tense=event.tense))
-    if event.action == "head" and isinstance(event.object, Feature):
+    if isinstance(event.object, Feature) and event.object.kind == "bend":
         time: Time = Unsaid() if event.object.rank is None else Rank(event.object.rank)
         event = Event("turn", event.actor, time=time, tense=event.tense)  # "take the bend"
     if event.action == "head" or event.action in DRIVING:

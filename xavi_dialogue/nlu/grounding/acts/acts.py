@@ -24,10 +24,12 @@ from xavi_dialogue.domain.terms import (
     Event,
     Is,
     Nobody,
+    Pronoun,
     Proposition,
     That,
     Thing,
     Unsaid,
+    Vehicle,
 )
 from xavi_dialogue.nlu.grounding.acts.ahead import in_lane, to_come
 from xavi_dialogue.nlu.grounding.acts.dangers import spoken_of
@@ -42,6 +44,7 @@ from xavi_dialogue.nlu.grounding.things.lights import lit
 
 LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
 _ANYBODY: Final = (Described(definite=False),)
+_FOLLOWED: Final = ("overtake", "follow", "keep-distance")  # who is ahead of us in our lane
 INCOMPLETE: Final = 1.0  # cost of a fragment that nothing completes
 
 
@@ -114,8 +117,23 @@ def _requested(event: Event, g: Grounder) -> Event:
     if isinstance(target, Described) and not target.definite:
         event = replace(event, object=replace(target, definite=True))
     found = g.event(event, "supposed")
+    if isinstance(target, Pronoun) and event.action in _FOLLOWED:
+        found = replace(found, object=_in_front(found.object, g))
     there = event.action == "head" and event.object is None  # "go there" is more than to go
     return replace(found, action="head") if there else found
+
+
+def _in_front(meant: Thing | None, g: Grounder) -> Thing | None:
+    """Give who is in front of us instead of somebody whom we cannot overtake or follow."""
+    now = g.context.now
+    look = g.context.look(meant.number, now) if isinstance(meant, Vehicle) else None
+    if look is None or (look.in_view and look.ahead > 0.0 and look.kind != "pedestrian"):
+        return meant
+    seen = (g.context.look(v, now) for v in g.context.in_view(now))
+    ahead = [x for x in seen if x is not None and x.bearing == "ahead" and not x.oncoming]
+    driven = [one for one in ahead if one.kind != "pedestrian"]
+    nearest = min(driven, key=lambda one: one.distance, default=None)
+    return meant if nearest is None else Vehicle(nearest.vehicle)
 
 
 def _about(about: Proposition | Thing | None, g: Grounder) -> Proposition | Thing | None:

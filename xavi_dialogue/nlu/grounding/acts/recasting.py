@@ -26,7 +26,6 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
-    At,
     Both,
     Compares,
     Described,
@@ -44,10 +43,8 @@ from xavi_dialogue.domain.terms import (
     Related,
     That,
     Thing,
-    Time,
     Unsaid,
     WholeRide,
-    Within,
 )
 from xavi_dialogue.nlu.grounding.acts.follow_ups import TURNS, compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others, still_here
@@ -62,8 +59,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     hindrance,
     proposition_of,
 )
+from xavi_dialogue.nlu.grounding.completion.moving import as_it_was
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
-from xavi_dialogue.nlu.grounding.events.spans import focus
 from xavi_dialogue.nlu.grounding.events.timing import of_doing
 from xavi_dialogue.nlu.grounding.things.lights import among
 
@@ -97,7 +94,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case Doing():
             return of_doing(spoken, g)
         case HowMuch(of=Measured("value", Pronoun("it" | "that") as it, about=None, time=time)):
-            return _as_it_was(it, time, g)
+            return as_it_was(it, time, g)
         case Identify(thing=Pronoun(form="it")) if (known := _own_measure(g.context)) is not None:
             g.notes.leaned = True
             return known
@@ -133,19 +130,6 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case Compare(options=options):
             return compared(spoken, options, g)
     return spoken
-
-
-def _as_it_was(it: Thing, time: Time, g: Grounder) -> Question:
-    """Ask "what was it two seconds ago?" of the measure under discussion, else who it was."""
-    asked = g.context.discourse.question
-    if not isinstance(asked, HowMuch):
-        return Doing(it, time, "past")
-    g.notes.leaned = True
-    told = focus(g.context.discourse)
-    if isinstance(time, Within) and time.seconds is not None and told is not None:
-        time = At(told[1] + time.seconds)  # "and a second later?"
-    then = replace(asked.of, time=time, tense="past")
-    return HowMuch(then, asked.extreme)
 
 
 def _of_light(spoken: Question) -> Question | None:

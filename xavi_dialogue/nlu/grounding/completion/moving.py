@@ -32,12 +32,15 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Relative,
+    Thing,
     Time,
     Unsaid,
     Vehicle,
     Within,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import interval, main_event
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.events.spans import focus
 
 
 def at_another_time(time: Time, question: Question) -> Question | None:
@@ -104,3 +107,15 @@ def counted_from(time: Time, question: Question) -> Time:
         case "after":
             return Between(when[1] + 0.05, when[1] + 8.0)
     return Between(*when)
+
+
+def as_it_was(it: Thing, time: Time, g: Grounder) -> Question:
+    """Ask "what was it two seconds ago?" of the measure under discussion, else who it was."""
+    asked = g.context.discourse.question
+    if not isinstance(asked, HowMuch):
+        return Doing(it, time, "past")
+    g.notes.leaned = True
+    told = focus(g.context.discourse)
+    if isinstance(time, Within) and time.seconds is not None and told is not None:
+        time = At(told[1] + time.seconds)  # "and a second later?"
+    return HowMuch(replace(asked.of, time=time, tense="past"), asked.extreme)
