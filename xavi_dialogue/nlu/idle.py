@@ -35,7 +35,7 @@ _BEARING: Final = frozenset(("V", "VING", "VED", "VPAST", "ADJ", "KIND", "COLOUR
 #: Keys of words that say little more than the clause that they stand in.
 _NAMED: Final = frozenset(
     ("vehicle", "car", "trip", "ride", "time", "reason", "difference", "start", "rude", "law",
-     "value", "road", "decision", "prediction"),
+     "option", "value", "road", "decision", "prediction"),
 )  # fmt: skip
 _NUMBERED: Final = frozenset(("numbered", "owner"))
 _PLACE: Final = "building"  # "the village": a place that the road network does not name

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Request,
     Summarise,
     WhatIf,
+    When,
     Whether,
     Which,
     Why,
@@ -59,6 +60,8 @@ _PLACES = (Junction, Exit, Lane, Road, Feature, Destination, Record)
 _FIXED = (Junction, Exit, Road, Record)
 _ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
+#: What is done at one moment, which nobody tells where a moment is asked for.
+_AT_ONCE = frozenset({"turn", "exit-left", "exit-right", "go", "stop", "pull-out"})
 #: Actions without an object: "who is that car coming" does not ask to whom it comes.
 _ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
 _SIDELESS = frozenset(
@@ -77,8 +80,19 @@ def oddity(act: Act) -> float:
     return _top(act) + _inside(act)
 
 
+def _is_told_when(act: Act) -> bool:
+    match act:
+        case Ask(
+            question=When(of=Happens(event=Event(time=Relative("during", Event(action=action)))))
+        ) if action in _AT_ONCE:
+            return True
+    return False
+
+
 def _top(act: Act) -> float:
     """Return the cost of an act as a whole."""
+    if _is_told_when(act):
+        return ODD  # "the time it turned green and the time we set off" asks for both
     match act:
         case Elliptic(time=Relative(anchor=Event(tense="future"))):
             return SLIGHT  # "when we will arrive?" asks when

@@ -217,6 +217,9 @@ class Orders(Telling):
         self, clause: Clause, value: Any, negated: bool, style: str | None
     ) -> tuple[Act, ...]:
         if isinstance(value, Special):
+            asked = None if clause.question is None else clause.question[0]
+            if value.name == "summarise" and asked is not None and asked.kind == "why":
+                return self.embedded(clause)
             if clause.question is not None and value.name == "summarise":
                 return (Ask(Summarise(None, self.asked_time(clause))),)
             if clause.question is not None and value.name in _TELLING:

@@ -34,8 +34,8 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.refining.asked import refined
+from xavi_dialogue.nlu.compose.refining.consequences import drawn
 from xavi_dialogue.nlu.compose.refining.told import refined_whether
-from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
 from xavi_dialogue.nlu.compose.wh_questions.behind import behind_what, by_whom
@@ -159,9 +159,8 @@ class Questions(Options):
         """Fill a clause that a question word asks of, and build its questions."""
         clause.gap = self.gap_of(wh)
         self.phrases.slots.fill(tuple(parts), clause)
-        amiss = hindsight(clause) if wh.kind == "what" else None
-        if amiss is not None:
-            return [(amiss, 0.0)]
+        if (meant := drawn(wh, clause)) is not None:
+            return [(meant, 0.0)]
         by_whom(clause)
         if (held := behind_what(clause)) is not None:
             return [(self.asking.ask(wh, *held), WHOLE)]

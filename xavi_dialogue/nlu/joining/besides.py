@@ -62,6 +62,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.times import relative
 from xavi_dialogue.nlu.compose.verbs.trends import changed
 from xavi_dialogue.nlu.honesty import is_well_typed
+from xavi_dialogue.nlu.joining.halves import halved
 from xavi_dialogue.nlu.joining.outcomes import asks_whom
 from xavi_dialogue.nlu.joining.recalling import of_deeds
 from xavi_dialogue.nlu.joining.there import to_lane
@@ -97,7 +98,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
             continue
         if before is not None:
             act = _at_limit(before, _of_each(before, _than_it(before, act)))
-            act = of_deeds(before, act)
+            act = of_deeds(before, halved(before, act))
             act = _of_trend(before, _of_ours(before, _of_exits(before, _linked(before, act))))
         alone = asked[index] and isinstance(act, Elliptic)  # "and the bus?"
         found.append(_setting(act) if index < questions[-1] and not alone else act)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     HowSure,
     Listing,
+    Peak,
     Question,
     Summarise,
     When,
@@ -57,8 +58,28 @@ _LETTING_GO: Final = frozenset(("give-way", "let-go"))
 _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 
 
+def _is_long_turn(spoken: Question) -> bool:
+    match spoken:
+        case Why(
+            of=Compares(
+                left=Measured(
+                    "duration" | "delay",
+                    event=Event(action="turn" | "exit-left" | "exit-right", actor=Ego()),
+                    tense="past" | "perfect",
+                ),
+                comparator="more",
+                right=None,
+            ),
+            suspect=None,
+        ):
+            return True
+    return False
+
+
 def of_trip(spoken: Question) -> Question | None:
     """Put the question of the ride or our way that is meant; None where it is another one."""
+    if _is_long_turn(spoken):
+        return Peak("delay")  # "why did that turn take so long?"
     match spoken:
         case (
             Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
