@@ -44,7 +44,7 @@ from xavi_dialogue.nlu.grounding.things.lights import lit
 
 LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
 _ANYBODY: Final = (Described(definite=False),)
-_FOLLOWED: Final = ("overtake", "follow", "keep-distance")  # who is ahead of us in our lane
+_FOLLOWED: Final = ("follow", "keep-distance")  # who is ahead of us in our lane
 INCOMPLETE: Final = 1.0  # cost of a fragment that nothing completes
 
 
@@ -124,7 +124,7 @@ def _requested(event: Event, g: Grounder) -> Event:
 
 
 def _in_front(meant: Thing | None, g: Grounder) -> Thing | None:
-    """Give who is in front of us instead of somebody whom we cannot overtake or follow."""
+    """Give who is in front of us instead of somebody whom we cannot follow."""
     now = g.context.now
     look = g.context.look(meant.number, now) if isinstance(meant, Vehicle) else None
     if look is None or (look.in_view and look.ahead > 0.0 and look.kind != "pedestrian"):
