@@ -1,5 +1,7 @@
 """Durations: how long something lasted, how long somebody waited, and what a manoeuvre cost."""
 
+from collections.abc import Sequence
+
 from msgspec.structs import replace
 
 from sim.scene import EGO
@@ -15,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Thing,
     Vehicle,
+    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -36,6 +39,7 @@ from xavi_dialogue.explain.answers.ride.places import time_to_go
 from xavi_dialogue.explain.history.restraints import lasted
 from xavi_dialogue.explain.history.thresholds import STANDING
 
+LITTLE = 1.0  # [s] cost below which somebody costs us next to nothing
 SOON = 3.0  # [s] maximum time to a stop that we are about to make
 LATELY = 15.0  # [s] after a hold-up in which a question may be about it
 CREEPING = 4.0  # [s] maximum time between two halts at one place
@@ -227,12 +231,13 @@ def held_for(asked: Asked, other: Thing) -> Event:
     return Event(named[-1].action if named else "give-way", object=other)
 
 
-def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
-    """Return what all slowing and waiting for a vehicle cost in a stretch of the ride."""
+def total_cost(asked: Asked, others: Vehicle | Vehicles, about: Window) -> Measure:
+    """Return what all slowing and waiting for vehicles cost in a stretch of the ride."""
+    each = [Vehicle(one) for one in numbers_in(others)]
     deeds = [
-        *asked.world.episodes(Ego(), HELD, object=other),
-        *(e for e in _slowed_behind(asked, other) if not _at_light(asked, e)),
-    ] or list(asked.world.episodes(Ego(), ("follow",), object=other))
+        *(e for one in each for e in asked.world.episodes(Ego(), HELD, object=one)),
+        *(e for one in each for e in _slowed_behind(asked, one) if not _at_light(asked, e)),
+    ] or [e for one in each for e in asked.world.episodes(Ego(), ("follow",), object=one)]
     near = about.widened() if about.instant else about
     costs = (lost(asked, e) for e in deeds if overlaps(asked, e, near))
     kept: list[Measure] = []
@@ -244,15 +249,16 @@ def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
             kept[-1] = cost
     total = round(sum(cost.value or 0.0 for cost in kept), 1)
     begin = kept[0].time if kept else near.begin
-    if (held := _restrained(asked, other, near)) > 0.0:  # the rest of it was for others
+    if (held := _restrained(asked, each, near)) > 0.0:  # the rest of it was for others
         total = min(total, round(held, 1))
-    return Measure("delay", Ego(), begin, value=total, to=other, extreme="total", count=len(kept))
+    return Measure("delay", Ego(), begin, value=total, to=others, extreme="total", count=len(kept))
 
 
-def _restrained(asked: Asked, other: Vehicle, about: Window) -> float:
-    """Return for how long [s] a vehicle was what kept us from driving faster."""
+def _restrained(asked: Asked, others: Sequence[Vehicle], about: Window) -> float:
+    """Return for how long [s] one of some vehicles was what kept us from driving faster."""
     spans = lasted(asked.ride, about.begin, min(about.end, asked.now))
-    return sum(span for one, span in spans.items() if one.vehicle == other.number)
+    known = {one.number for one in others}
+    return sum(span for one, span in spans.items() if one.vehicle in known and one.light is None)
 
 
 def compared_costs(question: Which, asked: Asked) -> Measures:

@@ -37,6 +37,7 @@ from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.measuring.counting import how_many
 from xavi_dialogue.explain.answers.measuring.durations import (
+    LITTLE,
     cost_of,
     event_lasting,
     held_for,
@@ -71,7 +72,6 @@ from xavi_dialogue.explain.answers.ride.places import gone, locate, where, whith
 from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.plans.options import options_at
 
-LITTLE = 1.0  # [s] cost below which somebody costs us next to nothing
 MOSTLY = 0.9  # minimum probability of arriving for a comparison of the times of two choices
 GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
 #: Actions that are chosen; their cost follows from the alternatives.
@@ -129,7 +129,7 @@ def _delay(of: Measured, asked: Asked) -> Answer:
     spent = cost_of_passage(asked, of.thing) if isinstance(of.thing, Junction) else None
     if spent is not None:
         return Measures((spent,))
-    if event is None and isinstance(of.thing, Vehicle):
+    if event is None and isinstance(of.thing, Vehicle | Vehicles):
         cost = total_cost(asked, of.thing, _told_of(of, asked))
         costs_now = of.tense == "present" and (cost.value or 0.0) < LITTLE
         held = _without(of.thing, asked) if costs_now else None
@@ -137,7 +137,7 @@ def _delay(of: Measured, asked: Asked) -> Answer:
     return Measures((cost_of(asked, event, window(asked, of.time)),))
 
 
-def _without(other: Vehicle, asked: Asked) -> Answer | None:
+def _without(other: Vehicle | Vehicles, asked: Asked) -> Answer | None:
     """Return what we would gain without somebody who has not slowed us yet; None: nothing.
 
     Raises:
@@ -160,7 +160,8 @@ def _without(other: Vehicle, asked: Asked) -> Answer | None:
 def _told_of(of: Measured, asked: Asked) -> Window:
     """Return the stretch in which a cost is asked for: the one named, else the ride."""
     about = window(asked, of.time)
-    return about if was_said(asked, of.time) else Window(asked.world.begin, asked.now)
+    named = was_said(asked, of.time) and not about.instant
+    return about if named else Window(asked.world.begin, asked.now)
 
 
 def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:

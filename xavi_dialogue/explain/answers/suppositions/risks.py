@@ -47,7 +47,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
-from xavi_dialogue.explain.answers.measuring.durations import total_cost
+from xavi_dialogue.explain.answers.measuring.durations import LITTLE, total_cost
 from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.against import EARLIER
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -81,15 +81,26 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
 
 
 def _cost_of(found: Answer, question: WhatIf, asked: Asked) -> Answer | None:
-    """Return what a vehicle cost us, where the plan without it does not tell how much sooner."""
-    if not isinstance(found, SupposedOfOther) or not found.past or found.form != "arrival":
+    """Return what vehicles cost us, where the plan without them does not tell how much sooner.
+
+    The decision may have been made before it was seen that they would be in the way.
+    """
+    if not isinstance(found, SupposedOfOther) or found.form not in ("arrival", "quicker"):
         return None
     of, negated = unwrapped(question.supposed)
     gone = negated and isinstance(of, Exists)
-    if found.arrival is not None or found.others or not (gone or isinstance(of, Happens)):
+    if not (gone or (found.past and isinstance(of, Happens))) or _gain(found) >= LITTLE:
         return None
-    cost = total_cost(asked, Vehicle(found.vehicle), Window(asked.world.begin, asked.now))
-    return Measures((cost,)) if cost.value else None
+    numbers = (found.vehicle, *found.others)
+    whom = Vehicles(numbers) if found.others else Vehicle(found.vehicle)
+    cost = total_cost(asked, whom, Window(asked.world.begin, asked.now))
+    return Measures((cost,)) if (cost.value or 0.0) >= LITTLE else None
+
+
+def _gain(found: SupposedOfOther) -> float:
+    """Return how much sooner [s] we would have been there by the plan."""
+    effects = () if found.contrast is None else found.contrast.effects
+    return sum(-one.delta for one in effects if one.component == "time")
 
 
 def _standing(question: WhatIf) -> WhatIf:

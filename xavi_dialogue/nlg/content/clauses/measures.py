@@ -201,7 +201,7 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
             slots["degree"] = "smooth" if value < 1.0 else "normal" if value < 2.5 else "rough"
         case "delay":
             slots |= {"even": abs(value) < 0.5, "saved": value < 0, "several": (one.count or 0) > 1}
-            slots["who"] = Who(one.to, one.time) if isinstance(one.to, Vehicle) else None
+            slots["who"] = Who(one.to, one.time) if isinstance(one.to, Vehicle | Vehicles) else None
         case "time-to-go":
             slots |= {
                 "arrived": value <= 0.0,

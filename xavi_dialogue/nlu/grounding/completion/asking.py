@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Measured,
     Pronoun,
     Proposition,
     Unsaid,
@@ -90,7 +91,7 @@ def asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
             return _which(spoken, question, g)
         case "where" if (place := _where(spoken, question)) is not None:
             return place
-        case "when" if isinstance(question, HowMuch) and first(question, Event) is None:
+        case "when" if isinstance(question, HowMuch) and _is_figure(question):
             return None if question.extreme is None else Ask(question)  # its answer tells when
         case "when" if isinstance(question, HowLong):
             return Ask(question)
@@ -117,12 +118,25 @@ def asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     return None
 
 
+def _is_figure(question: HowMuch) -> bool:
+    """Tell whether a figure is neither of an event nor of a light."""
+    return first(question, Event) is None and not _is_of_light(question)
+
+
+def _is_of_light(question: Question | None) -> bool:
+    """Tell whether it was asked what a light shows."""
+    match question:
+        case (
+            Whether(that=Has(attribute="colour", thing=Feature(kind="light")))
+            | HowMuch(of=Measured(attribute="colour", thing=Feature(kind="light")))
+        ):
+            return True
+    return False
+
+
 def _put(question: Question | None, g: Grounder) -> Proposition | None:
     """Return what a question is about; if it asked what a light shows, what it was said to show."""
-    match question:
-        case Whether(that=Has(attribute="colour", thing=Feature(kind="light"))):
-            return asserted(g.context)
-    return questioned(g.context)
+    return asserted(g.context) if _is_of_light(question) else questioned(g.context)
 
 
 def _which(spoken: Elliptic, question: Question | None, g: Grounder) -> Act:

@@ -1,0 +1,49 @@
+"""Follow-ups on what a light shows, time lost at it, and what those who went first cost us."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+
+@pytest.mark.parametrize(
+    "before", ["what does the light show?", "is the light green?", "what colour is the light?"]
+)
+@pytest.mark.parametrize(
+    ("follow", "told"),
+    [
+        ("since when?", "it was red already when it came into my view"),
+        ("are you sure?", "Yes, the traffic light is red"),
+        ("when will that change?", "I expect it to turn green in about"),
+    ],
+)
+def test_follow_ups_on_a_light_are_of_what_it_shows(before: str, follow: str, told: str) -> None:
+    talk = Talk("junction-0", 9.0)
+    assert "red" in talk.hear(before)
+    assert told in talk.hear(follow)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "how long did we lose at that light?",
+        "how much time did we lose at the light?",
+        "how much time did we waste at that light?",
+        "did we lose time at the light?",
+    ],
+)
+def test_time_lost_at_a_light_is_the_wait_there(text: str) -> None:
+    assert "waited for the traffic light for 10 seconds" in Talk("junction-0", 40.0).hear(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "would we have been faster without the people?",
+        "how much time did the people cost us?",
+        "did the people cost us time?",
+    ],
+)
+def test_without_those_who_held_us_up_we_gain_what_they_cost(text: str) -> None:
+    told = Talk("city-0", 42.0).hear(text)
+    assert told.startswith("The six pedestrians cost us about ")
+    assert "no time" not in told
