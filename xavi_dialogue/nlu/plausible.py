@@ -77,10 +77,11 @@ _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "he
 @lru_cache(maxsize=4096)
 def oddity(act: Act) -> float:
     """Return the cost of what an act says, in addition to the cost of its words."""
-    return _top(act) + _inside(act)
+    return _top(act) + _inside(act) + ODD * _is_told_when(act)
 
 
 def _is_told_when(act: Act) -> bool:
+    """Say whether a moment is asked for that is told: "when it turned green as we set off"."""
     match act:
         case Ask(
             question=When(of=Happens(event=Event(time=Relative("during", Event(action=action)))))
@@ -91,8 +92,6 @@ def _is_told_when(act: Act) -> bool:
 
 def _top(act: Act) -> float:
     """Return the cost of an act as a whole."""
-    if _is_told_when(act):
-        return ODD  # "the time it turned green and the time we set off" asks for both
     match act:
         case Elliptic(time=Relative(anchor=Event(tense="future"))):
             return SLIGHT  # "when we will arrive?" asks when

@@ -59,6 +59,7 @@ _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 
 
 def _is_long_turn(spoken: Question) -> bool:
+    """Tell whether it is asked why a turn of ours took long."""
     match spoken:
         case Why(
             of=Compares(
@@ -78,8 +79,10 @@ def _is_long_turn(spoken: Question) -> bool:
 
 def of_trip(spoken: Question) -> Question | None:
     """Put the question of the ride or our way that is meant; None where it is another one."""
-    if _is_long_turn(spoken):
-        return Peak("delay")  # "why did that turn take so long?"
+    return Peak("delay") if _is_long_turn(spoken) else _of_way(spoken)
+
+
+def _of_way(spoken: Question) -> Question | None:
     match spoken:
         case (
             Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
