@@ -136,8 +136,7 @@ def _of_light(spoken: Question) -> Question | None:
     """Read how long a light lasts, or held us up, as when it changes, or how long we waited."""
     match spoken:
         case Whether(that=Compares(Measured("delay", Feature("light") as lit) as cost, "more")):
-            waits = Event("wait", object=lit, time=cost.time, tense=cost.tense)
-            return Whether(Happens(waits))  # "did we lose time at the light?"
+            return Whether(Happens(Event("wait", object=lit, time=cost.time, tense=cost.tense)))
         case HowMuch(of=Measured("duration", Feature("light") as lit, tense="present" | "future")):
             return When(Happens(Event("turn-colour", replace(lit, colour=None), tense="future")))
         case HowMuch(of=Measured("delay", Feature("light"), None) as cost):
