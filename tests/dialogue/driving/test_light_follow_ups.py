@@ -47,3 +47,16 @@ def test_without_those_who_held_us_up_we_gain_what_they_cost(text: str) -> None:
     told = Talk("city-0", 42.0).hear(text)
     assert told.startswith("The six pedestrians cost us about ")
     assert "no time" not in told
+
+
+def test_a_colour_alone_is_of_the_light_after_its_forecast() -> None:
+    talk = Talk("junction-0", 20.0)
+    assert "turn green" in talk.hear("when will the light turn green?")
+    talk.hear("how do you know that?")
+    assert talk.hear("still red?").startswith("Yes, the traffic light is red")
+
+
+def test_the_colour_of_lights_that_were_counted_is_told() -> None:
+    talk = Talk("city-0", 50.0)
+    assert "one traffic light" in talk.hear("how many lights did we pass?")
+    assert "green" in talk.hear("what colour were they?")

@@ -7,9 +7,11 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     Doing,
     Elliptic,
+    HowKnow,
     HowLong,
     HowMany,
     HowMuch,
+    HowSure,
     Listing,
     Question,
     WhatIf,
@@ -28,7 +30,7 @@ from xavi_dialogue.nlu.grounding.things.lights import LIGHT, LIT
 _ALIKE: Final = (Where, When, HowLong, Why, WhatIf)
 
 #: Questions that "the red one?" does not carry over to a vehicle, where they are of ours.
-_OURS: Final = (HowMuch, HowLong, When, Whether)
+_OURS: Final = (HowMuch, HowLong, HowKnow, HowSure, When, Whether)
 _COUNTS: Final = (HowMany, Listing, Which)  # questions that are asked of others likewise
 SINCE: Final = 5.0  # [s] since the last question, after which what began meanwhile is meant
 _HALTS: Final = frozenset(("stop", "stand", "brake", "slow-down"))

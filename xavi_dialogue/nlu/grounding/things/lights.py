@@ -99,6 +99,8 @@ def _meant(part: Any, g: Grounder) -> Any:
             g, unsaid=True
         ):
             return replace(part, thing=LIGHT)
+        case Measured(attribute="colour", thing=Pronoun("they")) if _leads(g, unsaid=False):
+            return replace(part, thing=LIGHT)  # "how many lights? - what colour were they?"
         case Measured(attribute=attribute) if attribute in _MEASURED:
             beside = None if part.to is None else _spoken(part.to, g)
             return replace(part, thing=_spoken(part.thing, g), to=beside)
