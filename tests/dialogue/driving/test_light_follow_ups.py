@@ -60,3 +60,10 @@ def test_the_colour_of_lights_that_were_counted_is_told() -> None:
     talk = Talk("city-0", 50.0)
     assert "one traffic light" in talk.hear("how many lights did we pass?")
     assert "green" in talk.hear("what colour were they?")
+
+
+@pytest.mark.parametrize("text", ["tell me about the light", "where is the traffic light?"])
+def test_a_light_that_we_passed_is_not_denied(text: str) -> None:
+    told = Talk("junction-0", 60.0).hear(text)
+    assert "none" not in told
+    assert "0:2" in told

@@ -4,7 +4,8 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.meaning import HowMuch, Why
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Ago,
     Described,
@@ -102,7 +103,10 @@ def spoken_of(g: Grounder) -> Vehicle | None:
 
 def fresh_event(g: Grounder) -> Event | None:
     """Give the event that the turn before was about; None where that is too long ago for "that"."""
-    return next(events(g.context.discourse, real=True), None) if _is_recent(g) else None
+    discourse = g.context.discourse
+    if isinstance(discourse.question, HowMuch) and first(discourse.question, Event) is None:
+        return None  # it was about a figure: "how close did we get? - was that dangerous?"
+    return next(events(discourse, real=True), None) if _is_recent(g) else None
 
 
 def _is_recent(g: Grounder) -> bool:
