@@ -71,6 +71,7 @@ from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
 from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart
+from xavi_dialogue.nlu.grounding.things.scene import in_sight
 from xavi_dialogue.nlu.grounding.things.such import ITSELF, of_kind, pointed_at, says_nothing
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
@@ -224,15 +225,15 @@ _PACES: Final = frozenset(("speed", "limit", "excess"))
 
 
 def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
-    window = at_moment(spoken.time, spoken.tense, g, outer)
-    thing = spoken.thing
+    window, thing = at_moment(spoken.time, spoken.tense, g, outer), spoken.thing
     if isinstance(thing, Described) and not thing.definite:
         thing = replace(thing, plural=True)
-        after = getattr(getattr(thing.doing, "time", None), "anchor", None)
-        if (doing := thing.doing) is not None and isinstance(after, Described | Pronoun | Vehicle):
+        doing, after = thing.doing, getattr(getattr(thing.doing, "time", None), "anchor", None)
+        if doing is not None and isinstance(after, Described | Pronoun | Vehicle):
             g = g.beside(naming(g.context.discourse, g.thing(after, window)))
             thing = replace(thing, other=True, doing=replace(doing, time=Unsaid()))
-    return replace(spoken, thing=g.thing(thing, window), time=window.term)
+    found = in_sight(g.thing(thing, window), thing, window.term, g.context)
+    return replace(spoken, thing=found, time=window.term)
 
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:

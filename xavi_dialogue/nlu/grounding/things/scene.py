@@ -5,7 +5,7 @@ from typing import Final
 
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Episode, Look
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Described, Ego, Nobody, Now, Thing, Time, Vehicle
 from xavi_dialogue.nlu.grounding.context import Context, Fits
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
@@ -106,3 +106,13 @@ def most_prominent(
     order = tuple(vehicle for _, vehicle in weighed)
     clear = len(weighed) < 2 or weighed[0][0] <= CLEARLY * weighed[1][0]
     return order, clear
+
+
+def in_sight(found: Thing, spoken: Thing, time: Time, context: Context) -> Thing:
+    """Leave out who has just gone out of view, where it is asked whether anybody is there now."""
+    if not isinstance(spoken, Described) or spoken.definite or not isinstance(time, Now):
+        return found
+    if not isinstance(found, Vehicle):
+        return found
+    look = context.look(found.number, context.now)
+    return found if look is None or look.in_view else Nobody(spoken)
