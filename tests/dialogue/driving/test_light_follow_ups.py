@@ -67,3 +67,15 @@ def test_a_light_that_we_passed_is_not_denied(text: str) -> None:
     told = Talk("junction-0", 60.0).hear(text)
     assert "none" not in told
     assert "0:2" in told
+
+
+@pytest.mark.parametrize(
+    ("text", "begins"),
+    [
+        ("The car entered the junction.", "Yes, that is right"),
+        ("You entered the junction, didn't you?", "Yes"),
+        ("You did not enter the junction.", "Actually, I am turning right"),
+    ],
+)
+def test_who_turns_in_a_junction_has_entered_it(text: str, begins: str) -> None:
+    assert Talk("city-0", 31.0).hear(text).startswith(begins)

@@ -148,9 +148,12 @@ def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
     return Happens(passed) if world.holds(passed, world.begin, asked.now) else that
 
 
-def _entered(that: Proposition, asked: Asked) -> Happens | None:
+def _entered(that: Proposition, asked: Asked) -> Happens | Not | None:
     """Return our way through a junction, for whether we entered it."""
     match that:
+        case Not(content=content):
+            way = _entered(content, asked)
+            return None if way is None else Not(way)
         case Happens(
             event=Event(action="enter", actor=Ego(), object=Junction(), modal=None) as event
         ) if event.tense in ("past", "perfect"):
@@ -205,7 +208,8 @@ def claim(act: Claim, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is about something unknown, or rollouts are needed.
     """
-    act = replace(act, that=_as_state(act.that))
+    that = _as_state(act.that)
+    act = replace(act, that=_entered(that, asked) or that)
     if (why := _disputed(act.that, asked) or _our_way(act.that, asked)) is not None:
         return why
     if (wavering := _wavered(act.that, asked)) is not None:
