@@ -71,7 +71,8 @@ def whether(question: Whether, asked: Asked) -> Answer:
     ours = whether_ours(question, asked)
     if ours is not None:
         return ours
-    that = _as_chance(_as_state(_as_it_was(_affirmed(question.that), asked)))
+    affirmed = _affirmed(question.that)
+    that = _as_chance(_as_state(_as_it_was(affirmed, asked)))
     if (behind := _stays_behind(that, asked)) is not None:
         return staying(asked, behind)
     if (why := _disputed(that, asked)) is not None:
@@ -79,7 +80,8 @@ def whether(question: Whether, asked: Asked) -> Answer:
     found = _seen_since(that, weigh(that, asked), asked)
     if found.holds is False and isinstance(that, Happens) and lacks_deeds(asked.ride, that.event):
         raise Unanswered(NotRecorded("no-deeds"))
-    if question.tag and that != question.that and found.holds and found.answer is None:
+    denied = question.tag and affirmed != question.that
+    if denied and found.holds and found.answer is None:
         told = _seen_since(Not(that), found.negated(), asked)
         return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open
     if found.holds is False and (kept := _kept_behind(that, found, asked)) is not None:
