@@ -79,3 +79,17 @@ def test_a_light_that_we_passed_is_not_denied(text: str) -> None:
 )
 def test_who_turns_in_a_junction_has_entered_it(text: str, begins: str) -> None:
     assert Talk("city-0", 31.0).hear(text).startswith(begins)
+
+
+@pytest.mark.parametrize("text", ["Are we allowed to go?", "May we go?"])
+def test_once_it_is_green_we_may_go_though_we_still_stand(text: str) -> None:
+    talk = Talk("city-0", 24.1)
+    assert talk.hear("Is the light green?").startswith("Yes")
+    assert talk.hear(text).startswith("Yes, we have right of way")
+
+
+@pytest.mark.parametrize("text", ["Are we allowed to go?", "May we go?"])
+def test_while_it_is_red_we_may_not_go(text: str) -> None:
+    told = Talk("city-0", 22.5).hear(text)
+    assert told.startswith("No, ")
+    assert "red" in told

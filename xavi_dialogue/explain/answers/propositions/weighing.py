@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Now,
     Proposition,
     Related,
     That,
@@ -35,6 +36,7 @@ from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
 from xavi_dialogue.explain.answers.expectations.plans import plan_ahead
+from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.owing import is_rule
 from xavi_dialogue.explain.answers.propositions.alternatives import (
     acts_now,
@@ -46,7 +48,13 @@ from xavi_dialogue.explain.answers.propositions.alternatives import (
 )
 from xavi_dialogue.explain.answers.propositions.comparisons import compares, has
 from xavi_dialogue.explain.answers.propositions.conditions import condition, handed
-from xavi_dialogue.explain.answers.propositions.duties import duty, is_owed, of_order, who_first
+from xavi_dialogue.explain.answers.propositions.duties import (
+    MAY,
+    duty,
+    is_owed,
+    of_order,
+    who_first,
+)
 from xavi_dialogue.explain.answers.propositions.halting import stop_or_go
 from xavi_dialogue.explain.answers.propositions.measures import values
 from xavi_dialogue.explain.answers.propositions.relations import related
@@ -75,6 +83,9 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
         Unanswered: it is about something unknown, or what did not happen; or it needs rollouts.
     """
     match of:
+        case Happens(event=event) if _may_go(event, asked):
+            going = replace(event, modal=None)
+            return condition(Is("allowed", None, going, time=event.time), asked)
         case Happens(event=event):
             owed = pulls_up(asked, event) or duty(asked, event) or conduct(asked, event)
             return owed or happens(of, asked)
@@ -100,6 +111,13 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
             return _joined(of, asked)
         case That():
             return unknown("not-recorded")
+
+
+def _may_go(event: Event, asked: Asked) -> bool:
+    """Check whether it is asked if we, who stand, may go now: what is allowed, not what we do."""
+    now = event.tense == "present" and asked.past is None and isinstance(event.time, Unsaid | Now)
+    plain = event.action in ("go", "move") and event.object is None and not event.manner
+    return plain and now and is_us(event.actor) and event.modal in MAY and stands(asked)
 
 
 def _nobody(of: Related, asked: Asked) -> Finding:
