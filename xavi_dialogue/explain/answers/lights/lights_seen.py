@@ -203,9 +203,10 @@ def where(question: Any, scene: Asked) -> Answer:
     of = question.thing if isinstance(question, Identify) else question.of
     light = light_in(of, getattr(of, "thing", None), getattr(of, "to", None)) or Feature("light")
     one = shown_at(scene.ride, light, scene.now)
-    if one is None and passings(scene.ride):
+    found = LightTold("where", one, **place(scene, light, scene.now))  # type: ignore[arg-type]
+    if one is None and found.passed is None and passings(scene.ride):
         return count(HowMany(Feature("light")), scene)
-    return LightTold("where", one, **place(scene, light, scene.now))  # type: ignore[arg-type]
+    return found
 
 
 def count(question: HowMany, scene: Asked) -> Answer:
