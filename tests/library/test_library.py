@@ -173,7 +173,7 @@ def test_a_saved_ride_has_its_events_and_a_scene_for_each_decision() -> None:
     assert [one.time for one in s1().scenes] == [one.time for one in s1().decisions]
     assert s1().scenes[0].ego.speed > 0.0
     assert [e.sim_time for e in s1().events if e.kind == "arrived"] == [s1().end]
-    assert repr(s1()) == "<Ride s1, seed 0: 20 decisions, 19.1 s>"
+    assert repr(s1()) == "<Ride s1, seed 0: 19 decisions, 19 s>"
 
 
 def test_values_are_short_where_a_terminal_shows_them() -> None:
@@ -311,7 +311,7 @@ def test_a_saved_ride_is_opened_by_its_content_and_of_its_car_alone(tmp_path: Pa
 
 def test_wrong_arguments_are_told_with_what_is_right() -> None:
     with pytest.raises(
-        xavi.XaviError, match=r"at is -1; give a time \[s or m:ss\] of the ride, 0 to 19\.1"
+        xavi.XaviError, match=r"at is -1; give a time \[s or m:ss\] of the ride, 0 to 19"
     ):
         s1().ask(WHY, at=-1)
     with pytest.raises(xavi.XaviError, match="at is nan"):
