@@ -13,7 +13,7 @@ EventKind = Literal[
     "action-started",  # the ego begins a macro action; `decision` names the trace that chose it
     "action-committed",  # it can no longer be taken back: the lane change or turn itself begins
     "action-ended",
-    "gave-way",  # the ego slowed down or waited for `vehicle` at a junction
+    "gave-way",  # the ego slowed down or waited for `vehicle`, and no light held it
     "stopped-at-light",  # it came to a stop at `light`, or in a queue before it
     "restrained",  # from now on `by` keeps the ego from driving faster
     "arrived",  # the goal is reached

@@ -49,7 +49,7 @@ def test_all_who_crossed_are_listed() -> None:
 def test_all_whom_we_let_go_are_listed() -> None:
     """Those for whom our driving was restrained count as much as those for whom we stood."""
     reply = Talk("city-0", 55.0).say("who did you give way to on this ride?").reply.text
-    assert "all six pedestrians" in reply or "the six pedestrians" in reply
+    assert reply == "I gave way to the six pedestrians."
     assert "Yes" in Talk("city-0", 55.0).say("did you give way to pedestrian 9?").reply.text
 
 
@@ -137,7 +137,7 @@ def test_what_just_any_driver_would_do_is_no_question_of_this_ride() -> None:
 @pytest.mark.parametrize(
     ("where", "told", "untold"),
     [
-        ("on the right", ("vehicle 18",), ("vehicle 17",)),
+        ("on the right", ("vehicle 18",), ("vehicle 17", "vehicle 21")),
         ("ahead of us", ("vehicle 18", "vehicle 21"), ()),
         ("on the left", ("vehicle 17", "vehicle 21"), ("vehicle 18",)),
     ],

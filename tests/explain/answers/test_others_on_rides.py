@@ -70,6 +70,6 @@ def test_how_often_we_were_wrong_is_of_what_we_expected(question: str) -> None:
 def test_who_was_seen_on_the_ramp_took_the_exit() -> None:
     assert "took the exit at 0:27" in asked("motorway-0", "Did vehicle 2 take the exit?")
     told = asked("motorway-0", "What did you get wrong?")
-    assert "but it took the exit at 0:28" in told
+    assert "to change to the left lane (61 %), but it took the exit at 0:28" in told
     assert asked("motorway-0", "Did vehicle 6 take the exit?").startswith("No, ")
     assert not asked("motorway-0", "Did vehicle 2 take the exit at 0:05?").startswith("Yes")

@@ -1,4 +1,4 @@
-"""For which light several courses are told apart: the one that the way comes to next."""
+"""Several courses are foreseen for one light only: the next on the way."""
 
 import pytest
 

@@ -56,13 +56,12 @@ from xavi_dialogue.explain.answers.reference.naming import first_look
 from xavi_dialogue.explain.answers.reference.reading import event_of, unwrapped
 from xavi_dialogue.explain.answers.suppositions import supposing
 from xavi_dialogue.explain.answers.suppositions.undone import is_present
+from xavi_dialogue.explain.causes.driving.stated_reasons import BARRED
 from xavi_dialogue.explain.causes.plans.options import GOING, ONWARD, of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.restraints import restraints
-
-BARRED = 0.5  # probability of a collision from which it alone speaks against an action
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:

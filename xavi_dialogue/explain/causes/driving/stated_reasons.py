@@ -17,7 +17,7 @@ from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import Ride
 
 FASTER = 2.0  # [m/s] by which a leader may be faster and still be in the way
-BARRED = 0.5  # probability of a collision from which a change of lanes is out of the question
+BARRED = 0.5  # probability of a collision from which an action is out of the question
 SINCE: tuple[ActionName, ...] = (*EXITS, *CHANGES, "stop")
 
 
