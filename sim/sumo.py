@@ -51,8 +51,8 @@ class Simulation:
     the whole ride.
     """
 
-    def __init__(self, scenario: Scenario, seed: int) -> None:
-        """Start SUMO, with vehicles where the seed puts them.
+    def __init__(self, scenario: Scenario) -> None:
+        """Start SUMO, with vehicles where the scenario's seed puts them.
 
         Raises:
             SumoMissing: libsumo or a system library is not installed.
@@ -67,7 +67,7 @@ class Simulation:
         self._commanded = False
         self._announced: tuple[str, ...] = ()  # the edges that the others expect the ego on
         try:
-            names, painted = self._start(seed)
+            names, painted = self._start()
             self._names = names
             self._roads, radius = read_network(scenario.network), scenario.view_radius
             self._eyes = Perception(self._engine, self._ego, radius, names, painted, self._roads)
@@ -148,7 +148,7 @@ class Simulation:
         others = {b if a == self._ego else a for a, b in pairs}
         return tuple(sorted(self._names.of(other) for other in others))
 
-    def _start(self, seed: int) -> tuple[VehicleNames, Painted]:
+    def _start(self) -> tuple[VehicleNames, Painted]:
         """Start SUMO and put the ego on the road.
 
         Returns:
@@ -156,14 +156,17 @@ class Simulation:
         """
         scenario, source = self._scenario, self._scenario.source
         sublane = isinstance(source, FromConfiguration) and source.sublane
-        options = of_ride(scenario.step, seed, sublane=sublane)
+        options = {
+            **of_ride(scenario.step, scenario.seed, sublane=sublane),
+            "--no-warnings": "true",
+        }
         match source:
             case FromRoutes():
                 root = routes.parse(scenario.routes)
                 known = routes.departures(root)
                 coloured = frozenset(departure.id for departure in known if departure.coloured)
                 painted = Painted(coloured, routes.coloured_types(root))
-                net, file = str(scenario.network), str(self._routes(seed))
+                net, file = str(scenario.network), str(self._routes())
                 options |= {"--net-file": net, "--route-files": file}
                 self._engine.start(listed(options), scenario.routes)
                 self._engine.guarded(scenario.routes, lambda: step(self._engine))
@@ -175,14 +178,15 @@ class Simulation:
                 forget_stops(self._engine, self._ego)
                 return VehicleNames(self._ego, ()), Painted()
 
-    def _routes(self, seed: int) -> Path:
-        """Return the route file, with the starts of this seed."""
-        if self._scenario.spawn is None:
-            return self._scenario.routes
-        root = routes.parse(self._scenario.routes)
+    def _routes(self) -> Path:
+        """Return the route file, with the starts that the seed draws."""
+        scenario = self._scenario
+        if scenario.spawn is None:
+            return scenario.routes
+        root = routes.parse(scenario.routes)
         path = self._engine.scratch / "spawned.rou.xml"
-        network = read_network(self._scenario.network)
-        path.write_bytes(with_spawn(root, self._scenario.spawn, seed, network))
+        network = read_network(scenario.network)
+        path.write_bytes(with_spawn(root, scenario.spawn, scenario.seed, network))
         return path
 
     def _look(self, driven: VehicleState | None) -> View:

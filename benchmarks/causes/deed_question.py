@@ -97,7 +97,7 @@ def ride(scenario: Scenario, network: Network) -> Ridden:
     events: list[Event] = []
     samples: list[tuple[float, float]] = []
     ending: Ending = "duration"
-    with start(scenario, scenario.seed, network) as moments:
+    with start(scenario, network) as moments:
         for moment in moments:
             traces += [moment.trace] if moment.trace is not None else []
             events += moment.events

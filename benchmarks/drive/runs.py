@@ -59,12 +59,12 @@ def run(task: tuple[str, int]) -> Run:
     name, seed = task
     try:
         warm()
-        scenario = load(name)
+        scenario = load(name, seed)
         network = network_of(scenario)
-        with Simulation(scenario, seed) as world:
+        with Simulation(scenario) as world:
             sumo = by_sumo(world, scenario, network)
-        with Simulation(scenario, seed) as world:
-            ours, decisions = by_planner(world, scenario, network, seed)
+        with Simulation(scenario) as world:
+            ours, decisions = by_planner(world, scenario, network)
     except Exception as error:
         return Run(name, seed, error=f"{type(error).__name__}: {error}")
     return Run(name, seed, ours, sumo, None, tuple(one.ms for one in decisions))
@@ -86,7 +86,7 @@ def by_sumo(world: Simulation, scenario: Scenario, network: Network, see: See = 
 
 
 def by_planner(
-    world: Simulation, scenario: Scenario, network: Network, seed: int, see: See = _overlook
+    world: Simulation, scenario: Scenario, network: Network, see: See = _overlook
 ) -> tuple[Drive, tuple[Decided, ...]]:
     """Drive a scenario with our planner; call `see` with each scene.
 
@@ -94,7 +94,7 @@ def by_planner(
         The drive, and the time of each decision.
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
-    driver = Driver(network, goal, settings_of(scenario), seed)
+    driver = Driver(network, goal, settings_of(scenario), scenario.seed)
     decisions: list[Decided] = []
 
     def command(scene: Scene) -> Command:

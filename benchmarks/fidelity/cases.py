@@ -80,7 +80,7 @@ def compare(task: Task) -> Compared:
     """Compare all foils of every n-th decision of one ride; errors are part of the result."""
     try:
         warm()
-        with _scenario(task) as scenario, Simulation(scenario, task.seed) as world:
+        with _scenario(task) as scenario, Simulation(scenario) as world:
             pending = _ride(task, world, scenario)
         cases = tuple(case for one in pending for case in _settled(one))
         return Compared(task.world, task.seed, cases)
@@ -91,7 +91,7 @@ def compare(task: Task) -> Compared:
 @contextmanager
 def _scenario(task: Task) -> Iterator[Scenario]:
     if task.world not in (LEARNING, RANDOM):
-        yield load(task.world)
+        yield load(task.world, task.seed)
         return
     with tempfile.TemporaryDirectory() as folder:
         yield write_net(task.world, task.seed, Path(folder))

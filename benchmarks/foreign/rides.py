@@ -76,7 +76,7 @@ def ride(site: Site, seed: int, folder: Path) -> Chosen:
         for way in _drawn(ways, network, Random(f"{site.name}/{seed}")):
             place = place_of(file, Added(way.edges[0], way.edges[-1], way.begin))
             try:
-                load(place)
+                load(place, seed)
             except ScenarioError as error:
                 reasons.append(str(error))
             else:

@@ -91,16 +91,16 @@ def _folder(task: Task) -> Iterator[Path]:
 def _driven(found: Ridden, chosen: Chosen) -> Ridden:
     warm()
     began = time.perf_counter()
-    scenario = replace(load(chosen.place), duration=LONGEST)
+    scenario = replace(load(chosen.place, found.seed), duration=LONGEST)
     network = network_of(scenario)
-    with Simulation(scenario, found.seed) as world:
+    with Simulation(scenario) as world:
         start_up = time.perf_counter() - began
         sumo = _by_sumo(world, scenario, network)
     if sumo.drive.ended == "arrived":
         longest = min(LONGEST, PATIENCE[0] * sumo.drive.time + PATIENCE[1])
         scenario = replace(scenario, duration=longest)
-    with Simulation(scenario, found.seed) as world:
-        ours, decisions = _by_planner(world, scenario, network, found.seed)
+    with Simulation(scenario) as world:
+        ours, decisions = _by_planner(world, scenario, network)
     return msgspec.structs.replace(
         found, ours=ours, sumo=sumo, decisions=decisions, start_up=round(start_up, 3)
     )
@@ -113,8 +113,8 @@ def _by_sumo(world: Simulation, scenario: Scenario, network: Network) -> Driven:
 
 
 def _by_planner(
-    world: Simulation, scenario: Scenario, network: Network, seed: int
+    world: Simulation, scenario: Scenario, network: Network
 ) -> tuple[Driven, tuple[Decided, ...]]:
     conducting = Conducting(network, scenario.step)
-    drive, decisions = by_planner(world, scenario, network, seed, conducting.see)
+    drive, decisions = by_planner(world, scenario, network, conducting.see)
     return Driven(drive, conducting.conduct()), decisions

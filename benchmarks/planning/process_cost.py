@@ -48,8 +48,8 @@ def rides(hours: float, scenarios: tuple[str, ...]) -> tuple[Memory, ...]:
     found: list[Memory] = []
     driven, decisions, seed = 0.0, 0, 0
     while driven < hours * HOUR:
-        scenario = load(scenarios[seed % len(scenarios)])
-        with start(scenario, seed, network_of(scenario)) as ride:
+        scenario = load(scenarios[seed % len(scenarios)], seed)
+        with start(scenario, network_of(scenario)) as ride:
             before = driven
             for moment in ride:
                 decisions += moment.trace is not None

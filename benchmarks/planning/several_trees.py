@@ -54,10 +54,10 @@ def several_trees(trees: int, note: Callable[[str], None]) -> tuple[SeveralTrees
 
 
 def _beside(name: str, trees: int) -> list[SeveralTrees]:
-    scenario = load(name)
+    scenario = load(name, SEED)
     network = network_of(scenario)
     warm_up(network)
-    with start(scenario, SEED, network) as ride:
+    with start(scenario, network) as ride:
         traces = [moment.trace for moment in ride if moment.trace is not None]
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     usual = settings_of(scenario, trees)

@@ -81,10 +81,10 @@ def watch(task: Task) -> Watched:
     """
     try:
         if task.scenario is not None:
-            return _watched(task, record(load(task.scenario), task.seed), task.scenario)
+            return _watched(task, record(load(task.scenario, task.seed)), task.scenario)
         with tempfile.TemporaryDirectory() as folder:
             scenario = write(task.seed, Path(folder))
-            recording = record_by_sumo(scenario, task.seed)
+            recording = record_by_sumo(scenario)
         return _watched(task, recording, family_of(task.seed))
     except Exception as error:
         return Watched(task, error=f"{type(error).__name__}: {error}")

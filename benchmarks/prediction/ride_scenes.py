@@ -43,7 +43,7 @@ class Recording:
         return track_at(self.scenes, sample, vehicle, MEMORY)
 
 
-def record(scenario: Scenario, seed: int) -> Recording:
+def record(scenario: Scenario) -> Recording:
     """Drive a scenario to its end, by our planner.
 
     Raises:
@@ -54,7 +54,7 @@ def record(scenario: Scenario, seed: int) -> Recording:
     stride = max(1, round(SAMPLE_PERIOD / scenario.step))
     scenes: list[Scene] = []
     events: list[Event] = []
-    with start(scenario, seed, network) as ride:
+    with start(scenario, network) as ride:
         for count, moment in enumerate(ride):
             events.extend(moment.events)
             if count % stride == 0:
@@ -62,7 +62,7 @@ def record(scenario: Scenario, seed: int) -> Recording:
     return Recording(Roads(network), settings_of(scenario), scenes, events)
 
 
-def record_by_sumo(scenario: Scenario, seed: int) -> Recording:
+def record_by_sumo(scenario: Scenario) -> Recording:
     """Record a scenario whose ego SUMO drives, to the end of its way or of the time.
 
     Raises:
@@ -71,7 +71,7 @@ def record_by_sumo(scenario: Scenario, seed: int) -> Recording:
     network = network_of(scenario)
     stride = max(1, round(SAMPLE_PERIOD / scenario.step))
     scenes: list[Scene] = []
-    with Simulation(scenario, seed) as world, suppress(EgoGone):
+    with Simulation(scenario) as world, suppress(EgoGone):
         scene = world.scene()
         for count in range(round(scenario.duration / scenario.step) + 1):
             if count % stride == 0:

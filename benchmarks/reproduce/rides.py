@@ -54,7 +54,7 @@ def tell(task: tuple[str, int]) -> tuple[Told, ...]:
     name, seed = task
     foils = tuple(foil for foil in FOILS if foil.scenario == name)
     try:
-        return _tell(load(name), seed, foils)
+        return _tell(load(name, seed), foils)
     except Exception as error:
         return broken(task, f"{type(error).__name__}: {error}")
 
@@ -65,13 +65,13 @@ def broken(task: tuple[str, int], error: str) -> tuple[Told, ...]:
     return tuple(Told(foil, seed, error=error) for foil in FOILS if foil.scenario == name)
 
 
-def _tell(scenario: Scenario, seed: int, foils: tuple[Foil, ...]) -> tuple[Told, ...]:
+def _tell(scenario: Scenario, foils: tuple[Foil, ...]) -> tuple[Told, ...]:
     network = network_of(scenario)
     conversation = Conversation(make_pipeline(), planner_for(network))
-    with start(scenario, seed, network) as ride:
+    with start(scenario, network) as ride:
         at = drive_to(ride, conversation, None)
-    told = tuple(_ask(conversation, foil, seed, at, network) for foil in foils)
-    happened = _drive(scenario, seed, network, told)
+    told = tuple(_ask(conversation, foil, scenario.seed, at, network) for foil in foils)
+    happened = _drive(scenario, network, told)
     return tuple(replace(one, happened=happened.get(one.foil.action)) for one in told)
 
 
@@ -123,18 +123,16 @@ def _weighed(
     return weigh(trace, before, found.fact, foil.action, rows_of(foil), network)
 
 
-def _drive(
-    scenario: Scenario, seed: int, network: Network, told: Sequence[Told]
-) -> dict[Action, Happened]:
+def _drive(scenario: Scenario, network: Network, told: Sequence[Told]) -> dict[Action, Happened]:
     """Return what happens in SUMO after the foils, from the decisions that were explained.
 
     One that cannot be driven is left out.
     """
     asked = [one for one in told if one.decided is not None]
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
-    driver = Driver(network, goal, settings_of(scenario), seed)
+    driver = Driver(network, goal, settings_of(scenario), scenario.seed)
     found: dict[Action, Happened] = {}
-    with Simulation(scenario, seed) as world:
+    with Simulation(scenario) as world:
         scene = world.scene()
         last = max((one.decided for one in asked if one.decided is not None), default=-1.0)
         while scene.time <= last + EPSILON:

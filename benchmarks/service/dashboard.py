@@ -143,9 +143,9 @@ def measure(seconds: float, minutes: float, note: Callable[[str], None]) -> Repo
         NoBrowser: none is installed, or playwright is not.
         ChildFailed: the dashboard does not come up.
     """
-    scenario = load(SCENARIO)
+    scenario = load(SCENARIO, SEED)
     network = network_of(scenario)
-    with start(scenario, SEED, network) as moments:
+    with start(scenario, network) as moments:
         decision = next(moment.trace for moment in moments if moment.trace is not None)
     figures, frames = [], []
     for vehicles in VEHICLES:

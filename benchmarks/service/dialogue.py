@@ -139,10 +139,10 @@ def _targets(figures: Sequence[Figure], loads: Sequence[Load]) -> Iterator[Targe
 
 def ride(name: str) -> tuple[Conversation, Network]:
     """Return a scenario, driven to its end and recorded."""
-    scenario = load(name)
+    scenario = load(name, SEED)
     network = network_of(scenario)
     conversation = Conversation(make_pipeline(), planner_for(network))
-    with start(scenario, SEED, network) as moments:
+    with start(scenario, network) as moments:
         drive_to(moments, conversation, scenario.duration)
     return conversation, network
 

@@ -103,9 +103,9 @@ def asked(scenario: str, seed: int, every: int) -> Asked:
         SimulationError: SUMO is not installed or fails.
     """
     warm()
-    world = load(scenario)
+    world = load(scenario, seed)
     network = network_of(world)
-    with start(world, seed, network) as ride:
+    with start(world, network) as ride:
         moments = tuple(ride)
     return Asked(scenario, seed, moments, tuple(answers(moments, network, every)))
 

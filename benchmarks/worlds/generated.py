@@ -49,7 +49,7 @@ def write(number: int, folder: Path) -> Scenario:
     ways = routes(network, draw)
     _save(ways, draw, folder / f"{NAME}.rou.xml")
     (folder / "scenario.toml").write_text(_table(number, ways[0][0], network), encoding="utf-8")
-    return load(folder)
+    return load(folder, number)
 
 
 def options(number: int, draw: Random) -> tuple[str, ...]:

@@ -48,7 +48,7 @@ def write_net(family: str, number: int, folder: Path) -> Scenario:
         world = _world(draw, network, number)
         if world is not None:
             scenario = write_traffic(world, folder, "A network and traffic at random.")
-            return replace(scenario, duration=DURATION)
+            return replace(scenario, duration=DURATION, seed=number)
     raise NoWay(f"{family} {number}")
 
 

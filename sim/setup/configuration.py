@@ -13,7 +13,7 @@ from sim.roads.network import Network
 from sim.setup.checks import edges_of, near
 from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
-from sim.setup.options import ALWAYS, listed
+from sim.setup.options import Stated, listed, of_ride, stated
 from sim.setup.place_text import KEYS, begin_of, place_of, split_place
 from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
@@ -22,7 +22,6 @@ STEP = 0.1  # [s] the longest simulation step in which the ego is driven
 SHORTEST = 5.0  # [s] between the departure and the end, below which the ride goes on beyond it
 SHOWN = 3  # greatest number of SUMO's warnings that are quoted
 CAR = "passenger"
-YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] from the goal to the end of the last edge
 OPTIONS = {"ego": "ego", "from": "ego-from", "to": "ego-to", "begin": "begin"}  # by key
 UNFORESEEN = {"rail": "trains", "ship": "ships"}
@@ -83,19 +82,29 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
 
 
 def _who_departs(file: Path) -> list[str]:
-    with _refused(file), _started(file) as engine, _hushed(engine):
-        return first_departures(engine)
+    with _refused(file), Engine() as engine:
+        _start(engine, file, None, None)
+        with _hushed(engine):
+            return first_departures(engine)
 
 
-def inspect(file: Path, rider: Rider) -> Inspected:
-    """Let SUMO load a configuration and run up to the ego's departure.
+def inspect(file: Path, rider: Rider, seed: int | None, step: float | None) -> Inspected:
+    """Let SUMO load a configuration and run up to the ego's departure, as in the ride.
+
+    Args:
+        file: the configuration.
+        rider: its ego.
+        seed: of the ride; None: as the configuration states.
+        step: [s] of the ride; None: as the configuration states, at most STEP.
 
     Raises:
         TableError: SUMO refuses the configuration, or the car cannot be driven in it.
         SimulationError: SUMO is not installed, or runs in this process already.
     """
-    with _refused(file), _started(file) as engine, _hushed(engine):
-        return _Inspection(engine, file, rider).result()
+    with _refused(file), Engine() as engine:
+        found = _start(engine, file, seed, step)
+        with _hushed(engine):
+            return _Inspection(engine, file, rider, found).result()
 
 
 @contextmanager
@@ -120,15 +129,30 @@ def _refused(file: Path) -> Iterator[None]:
         raise TableError(file, None, problem, remedy) from error
 
 
-def _started(file: Path) -> Engine:
-    engine = Engine()
-    try:
-        # SUMO's warnings stay on: they state what SUMO leaves out.
-        engine.start(listed({"--configuration-file": str(file), **ALWAYS}), file)
-    except BaseException:
-        engine.close()
-        raise
-    return engine
+@dataclass(frozen=True, slots=True)
+class _Started:
+    """What a simulation was started with."""
+
+    stated: Stated  # by the configuration
+    seed: int
+    step: float  # [s]
+
+
+def _start(engine: Engine, file: Path, seed: int | None, step: float | None) -> _Started:
+    """Start SUMO with the options of the ride: its random numbers depend on all of them."""
+    configuration = {"--configuration-file": str(file)}
+    saved = engine.scratch / "options.xml"
+    engine.start(listed({**configuration, "--save-configuration": str(saved)}), file)
+    found = stated(saved)
+    if found.mesoscopic:
+        problem = "its vehicles have no places in SUMO's mesoscopic model"
+        raise TableError(file, "mesosim", problem, "remove the option")
+    seed = found.seed if seed is None else seed
+    step = min(STEP, found.step) if step is None else step
+    # SUMO's warnings stay on: they state what SUMO leaves out.
+    options = of_ride(step, seed, sublane=found.sublane)
+    engine.start(listed({**configuration, **options}), file)
+    return _Started(found, seed, step)
 
 
 def _hushed(engine: Engine) -> AbstractContextManager[None]:
@@ -139,14 +163,11 @@ def _hushed(engine: Engine) -> AbstractContextManager[None]:
 class _Inspection:
     """Queries to SUMO about the content of a configuration."""
 
-    def __init__(self, engine: Engine, file: Path, rider: Rider) -> None:
-        self.engine, self.file, self.rider = engine, file, rider
+    def __init__(self, engine: Engine, file: Path, rider: Rider, started: _Started) -> None:
+        self.engine, self.file, self.rider, self.started = engine, file, rider, started
 
     def result(self) -> Inspected:
         """Run the simulation up to the ego's departure, check it, and return its content."""
-        if self._option("mesosim").lower() in YES:
-            problem = "its vehicles have no places in SUMO's mesoscopic model"
-            raise TableError(self.file, "mesosim", problem, "remove the option")
         path = Path(self._option("net-file"))
         network = self._network(path)
         if isinstance(self.rider, Added):
@@ -154,7 +175,6 @@ class _Inspection:
                 self._check_edge(edge, network)
         else:
             self._check_mentioned(self.rider.id)
-        step = float(self.engine.call(self.engine.api.simulation.getDeltaT))
         ego = depart(self.engine, self.file, self.rider)
         self._check_ego(ego, network)
         goal = self.engine.call(self.engine.api.vehicle.getRoute, ego)[-1]
@@ -170,14 +190,14 @@ class _Inspection:
             ego=ego,
             goal=goal,
             goal_position=round(max(0.5 * length, length - BEFORE_END), 2),
-            step=min(STEP, step),
+            step=self.started.step,
             duration=LONGEST if over else left,
-            seed=int(self._option("seed")),
-            sublane=float(self._option("lateral-resolution")) > 0.0,
+            seed=self.started.seed,
+            sublane=self.started.stated.sublane,
             warnings=(
                 *self._of_sumo(),
                 *((beyond,) if over else ()),
-                *self._unmodelled(ego, network, step),
+                *self._unmodelled(ego, network),
             ),
         )
 
@@ -234,10 +254,11 @@ class _Inspection:
         if len(found) > SHOWN:
             yield f"{self.file.name}: SUMO warns of {len(found) - SHOWN} things more"
 
-    def _unmodelled(self, ego: str, network: Network, step: float) -> Iterator[str]:
+    def _unmodelled(self, ego: str, network: Network) -> Iterator[str]:
         """Yield sentences on what in the configuration the planner does not take into account."""
-        if step > STEP:
-            yield f"its steps of {step:g} s are shortened to {STEP:g} s"
+        stated, step = self.started.stated.step, self.started.step
+        if stated > step:
+            yield f"its steps of {stated:g} s are shortened to {step:g} s"
         if self.engine.call(self.engine.api.vehicle.getStops, ego):
             yield f"the stops of {ego!r} are not made: the car drives to the end of its route"
         for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):

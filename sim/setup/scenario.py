@@ -106,11 +106,13 @@ def descriptions() -> dict[str, str]:
         raise ScenarioInvalid(str(error)) from error
 
 
-def load(name_or_path: str | Path) -> Scenario:
+def load(name_or_path: str | Path, seed: int | None = None) -> Scenario:
     """Read and check a scenario by its name, its folder, or a SUMO configuration.
 
     Args:
-        name_or_path: for a configuration, a place as described in `sim.setup.configuration`.
+        name_or_path: for a configuration, a place as described in `sim.setup.place_text`.
+        seed: of the ride: where routes are drawn, it decides where the ego drives to. None: the
+            scenario's own.
 
     Raises:
         ScenarioNotFound: this is neither a known name, nor a folder with a scenario.toml, nor a
@@ -120,9 +122,22 @@ def load(name_or_path: str | Path) -> Scenario:
         SimulationError: SUMO, which reads configurations, is not installed or runs already.
     """
     with _invalid():
-        if name_or_path not in available() and place_text.is_place(str(name_or_path)):
-            return _configured(str(name_or_path))
-        return _read(_folder(name_or_path))
+        if _is_configuration(name_or_path):
+            return _configured(str(name_or_path), seed)
+        return _read(_folder(name_or_path), seed)
+
+
+def place_of(name_or_path: str | Path) -> str:
+    """Return the place of a scenario, as `load` states it, without reading its content.
+
+    Raises:
+        ScenarioNotFound, ScenarioInvalid, SimulationError: as of `load`.
+    """
+    with _invalid():
+        if _is_configuration(name_or_path):
+            file, wishes = place_text.split_place(str(name_or_path))
+            return place_text.place_of(file, configuration.rider_of(file, wishes))
+        return str(_folder(name_or_path))
 
 
 def with_rider(place: str) -> str:
@@ -149,13 +164,18 @@ def _invalid() -> Iterator[None]:
         raise ScenarioInvalid(f"{problem}; give another folder or file") from error
 
 
-def _read(folder: Path) -> Scenario:
+def _is_configuration(name_or_path: str | Path) -> bool:
+    return name_or_path not in available() and place_text.is_place(str(name_or_path))
+
+
+def _read(folder: Path, seed: int | None) -> Scenario:
     top = read_toml(folder / CONFIG)
     if "configuration" in top.values:
-        return _configured_folder(folder, top)
+        return _configured_folder(folder, top, seed)
     top.only((*_KEYS, *_OPTIONAL))
     priority = top.table("priority")
     priorities = {edge: priority.integer(edge) for edge in priority.values}
+    own = top.integer("seed", default=0)
     scenario = Scenario(
         name=top.text("name"),
         description=top.text("description"),
@@ -167,7 +187,7 @@ def _read(folder: Path) -> Scenario:
         step=_step(top),
         duration=top.number("duration", least=0.001),
         view_radius=_radius(top),
-        seed=top.integer("seed", default=0, most=2**31 - 1),
+        seed=own if seed is None else seed,
         goal=_goal(top.table("goal", required=True)),
         spawn=_spawn(top.table("spawn")) if "spawn" in top.values else None,
         priority=priorities,
@@ -175,11 +195,11 @@ def _read(folder: Path) -> Scenario:
     return replace(scenario, warnings=_check(scenario, top))
 
 
-def _configured(place: str) -> Scenario:
+def _configured(place: str, seed: int | None, step: float | None = None) -> Scenario:
     """Return the scenario in a SUMO configuration."""
     file, wishes = place_text.split_place(place)
     rider = configuration.rider_of(file, wishes)
-    found = configuration.inspect(file, rider)
+    found = configuration.inspect(file, rider, seed, step)
     return Scenario(
         name=file.name.partition(".")[0],
         description=f"{told(rider)} in {file.name}",
@@ -200,21 +220,22 @@ def _configured(place: str) -> Scenario:
     )
 
 
-def _configured_folder(folder: Path, top: Table) -> Scenario:
+def _configured_folder(folder: Path, top: Table, seed: int | None) -> Scenario:
     """Return a scenario whose folder names a SUMO configuration and may override parts of it."""
     top.only((*_CONFIGURED, *_CHANGES))
     file = packaged_file(top, "configuration", folder).resolve()
-    found = _configured(place_text.place_of(file, _rider(top)))
+    own = top.integer("seed") if "seed" in top.values else None
+    step = _step(top) if "step" in top.values else None
+    place = place_text.place_of(file, _rider(top))
+    found = _configured(place, own if seed is None else seed, step)
     return replace(
         found,
         name=top.text("name"),
         description=top.text("description"),
         folder=folder,
         place=str(folder),
-        step=_step(top, found.step),
         duration=top.number("duration", default=found.duration, least=0.001),
         view_radius=_radius(top),
-        seed=top.integer("seed", default=found.seed, most=2**31 - 1),
         goal=_goal_there(top, found),
     )
 
@@ -236,8 +257,8 @@ def _goal_there(top: Table, found: Scenario) -> Goal:
     return goal
 
 
-def _step(top: Table, default: float | None = None) -> float:
-    return top.number("step", default=default, least=0.001, most=1.0)
+def _step(top: Table) -> float:
+    return top.number("step", least=0.001, most=1.0)
 
 
 def _radius(top: Table) -> float:

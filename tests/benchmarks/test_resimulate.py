@@ -45,7 +45,7 @@ class Halted:
 
 @contextmanager
 def halted(name: str) -> Iterator[Halted]:
-    with Simulation(load(name), 0) as world:
+    with Simulation(load(name, 0)) as world:
         yield Halted(name, world)
 
 

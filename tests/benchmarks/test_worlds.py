@@ -107,7 +107,7 @@ def test_the_others_stay_what_they_are_when_one_is_taken_away(folder: Path) -> N
     scenario = write(world, folder / "less")
     looks = []
     for gone in ((), world.planted):
-        with Simulation(without(world, scenario, gone), 0) as run:
+        with Simulation(without(world, scenario, gone)) as run:
             looks.append(
                 {n: (v.colour, v.length, v.position) for n, v in run.scene().vehicles.items()}
             )

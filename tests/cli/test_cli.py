@@ -161,7 +161,7 @@ def test_what_looks_wrong_in_a_scenario_is_told_once(
 ) -> None:
     doubtful = replace(scenario.load("s1"), warnings=("a road ends",))
     reply = Reply(text="", kind="answer", reason=None, sim_time=0.0)
-    monkeypatch.setattr(scenario, "load", lambda _: doubtful)
+    monkeypatch.setattr(scenario, "load", lambda *_: doubtful)
     monkeypatch.setattr(drive, "drive", lambda *_: drive.Summary("s1", 0, "arrived"))
     monkeypatch.setattr(ask, "ask_once", lambda *_: reply)
     monkeypatch.setattr(chat, "through_pipe", lambda *_, **__: None)

@@ -397,9 +397,9 @@ def test_what_is_wrong_with_a_connection_is_told_at_once(wrong: dict[str, Any]) 
 @pytest.mark.slow
 def test_a_ride_that_is_driven_answers_as_xavi_ask_does() -> None:
     ride = xavi.drive("s1", seed=3)
-    scenario = load_scenario("s1")
+    scenario = load_scenario("s1", 3)
     for question, at in ((WHY, None), ("What are you doing?", 2.5), (WHAT_IF, 5.0)):
-        said = ask_once(scenario, 3, question, at)
+        said = ask_once(scenario, question, at)
         found = ride.ask(question, at)
         assert (found.text, found.at) == (said.text, said.sim_time)
         assert (found.content, found.explanation) == (said.answers, said.explanation)

@@ -25,13 +25,13 @@ S1, S2 = load("s1"), load("s2")
 RIDE = """
 from sim.setup.scenario import load
 from sim.sumo import Simulation
-with Simulation(load("s1"), 5) as world:
+with Simulation(load("s1", 5)) as world:
     print([world.step(None) for _ in range(80)])
 """
 
 
 def ride(scenario: Scenario, seed: int, steps: int) -> list[Scene]:
-    with Simulation(scenario, seed) as world:
+    with Simulation(dataclasses.replace(scenario, seed=seed)) as world:
         return [world.scene(), *(world.step(None) for _ in range(steps))]
 
 
@@ -53,7 +53,7 @@ def test_a_ride_does_not_depend_on_hash_order(root: Path) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_the_first_scene_shows_the_starts_that_the_seed_gives(seed: int) -> None:
-    with Simulation(S2, seed) as world:
+    with Simulation(dataclasses.replace(S2, seed=seed)) as world:
         scene = world.scene()
         assert scene.time == world.time == 0.0
     assert list(scene.vehicles) == [0, 1]  # vehicle 2 is not in view yet
@@ -73,7 +73,7 @@ def test_time_passes_by_the_step() -> None:
 def test_the_ego_takes_exactly_the_pose_it_is_given() -> None:
     """Through a lane change, off the lane centres, and through the turn."""
     network = read_network(S1.network)
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         x, y = world.scene().ego.position
         speed = world.scene().ego.speed
         for k in range(60):
@@ -115,7 +115,7 @@ def speeds_of_the_other(
     routes = tmp_path / "two.rou.xml"
     routes.write_text(TWO.format(ego=lane))
     speeds = []
-    with Simulation(dataclasses.replace(load("motorway"), routes=routes, spawn=None), 0) as world:
+    with Simulation(dataclasses.replace(load("motorway"), routes=routes, spawn=None)) as world:
         (x, start) = world.scene().ego.position
         y = start
         for k in range(1, 140):
@@ -146,7 +146,7 @@ def test_a_new_way_is_told_as_soon_as_sumo_takes_the_ego_to_be_on_a_lane(tmp_pat
     file.write_text(TWO.format(ego=0))
     motorway = dataclasses.replace(load("motorway"), routes=file, spawn=None)
     way, routes = ("exit_lane", "ramp"), []
-    with Simulation(motorway, 0) as world:
+    with Simulation(motorway) as world:
         told: list[tuple[float, tuple[str, ...]]] = [(-13.1, ()), (-150.0, ()), (-150.0, way)]
         for k, (y, known) in enumerate([*told, (-13.1, way), (-13.1, way)]):
             scene = world.step(Command((750.0 + 0.5 * k, y), 0.0, 5.0, known))
@@ -156,7 +156,7 @@ def test_a_new_way_is_told_as_soon_as_sumo_takes_the_ego_to_be_on_a_lane(tmp_pat
 
 
 def test_the_ego_can_be_given_back_to_sumo() -> None:
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         ego = world.scene().ego
         x, y = ego.position
         for k in range(5):
@@ -193,7 +193,7 @@ def test_lights_are_seen() -> None:
 
 
 def test_the_ego_shows_the_lights_that_it_is_told_to() -> None:
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         x, y = world.scene().ego.position
         for k, lights in enumerate([("left",), ("right", "brake"), (), ("brake",)], 1):
             command = Command((x + 0.8 * k, y), 0.0, 8.0, lights=lights)
@@ -202,14 +202,14 @@ def test_the_ego_shows_the_lights_that_it_is_told_to() -> None:
 
 
 def test_the_ego_gets_its_own_lights_back_from_sumo() -> None:
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         x, y = world.scene().ego.position
         world.step(Command((x + 0.8, y), 0.0, 8.0, lights=("left", "right")))
         assert world.step(None).ego.signals != ("left", "right")
 
 
 def test_collisions_are_told_by_boxes_even_across_lanes() -> None:
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         assert world.collisions() == ()
         ahead = world.scene().vehicles[1]
         x, y = ahead.position
@@ -219,7 +219,7 @@ def test_collisions_are_told_by_boxes_even_across_lanes() -> None:
 
 
 def test_sumo_agrees_on_a_crash_within_a_lane() -> None:
-    with Simulation(S1, 0) as world:
+    with Simulation(S1) as world:
         ahead = world.scene().vehicles[1]
         x, y = ahead.position
         world.step(Command((x - 2.0, y), 0.0, 5.0))
@@ -228,9 +228,9 @@ def test_sumo_agrees_on_a_crash_within_a_lane() -> None:
 
 
 def test_one_simulation_per_process() -> None:
-    with Simulation(S1, 0), pytest.raises(SimulationRunning, match="in this process"):
-        Simulation(S1, 1)
-    with Simulation(S2, 0) as world:
+    with Simulation(S1), pytest.raises(SimulationRunning, match="in this process"):
+        Simulation(dataclasses.replace(S1, seed=1))
+    with Simulation(S2) as world:
         world.close()
         world.close()
 
@@ -255,7 +255,7 @@ def test_errors_of_sumo_are_translated(
     routes = tmp_path / "broken.rou.xml"
     routes.write_text(f'<routes><vehicle id="ego" depart="0" {vehicle}</vehicle></routes>')
     with pytest.raises(SumoFailed, match=words) as caught:
-        Simulation(dataclasses.replace(S2, routes=routes), 0)
+        Simulation(dataclasses.replace(S2, routes=routes))
     assert str(caught.value).startswith(f"{routes}: ")
     assert capfd.readouterr() == ("", "")
     assert len(ride(S2, 0, 1)) == 2  # a failed start leaves nothing behind
@@ -287,5 +287,5 @@ def test_what_sumo_lacks_is_named(
 
     monkeypatch.setattr(importlib, "import_module", refuse)
     with pytest.raises(SumoMissing, match=words):
-        Simulation(S1, 0)
+        Simulation(S1)
     assert not engine._running

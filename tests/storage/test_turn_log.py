@@ -201,13 +201,13 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, arguments: list[str]) 
 
 
 def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
-    keeping, s1 = Retention(path, 30), load("s1")
+    keeping = Retention(path, 30)
     going = resume.find(keeping, "ada")
     assert (going.place(None), going.place("s2")) == ("s1", "s2")
-    assert (going.seed(None, s1), going.seed(7, s1)) == (4, 7)
-    assert going.seed(None, load("s2")) == load("s2").seed
-    assert (going.moment(s1, 4), going.moment(s1, 7)) == (8.0, None)
-    assert going.moment(load("s2"), 4) is None
+    assert (going.seed(None, "s1"), going.seed(7, "s1")) == (4, 7)
+    assert going.seed(None, "s2") is None
+    assert (going.moment(load("s1", 4)), going.moment(load("s1", 7))) == (8.0, None)
+    assert going.moment(load("s2", 4)) is None
     assert going.note(8.0, keeping) == "going on with ada: 2 turns, at 0:08"
     assert "of another ride" in going.note(None, keeping)
 
@@ -215,7 +215,7 @@ def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
 def test_a_conversation_that_nobody_knows_begins(path: Path) -> None:
     going = resume.find(Retention(path, 30), "eve")
     assert (going.place(None), going.before) == ("s1", None)
-    assert going.seed(None, load("s1")) == load("s1").seed
+    assert going.seed(None, "s1") is None
     fresh = resume.fresh(datetime(2026, 11, 21, 16, 42, 10, tzinfo=UTC), "3f9c")
     assert fresh.session == "20261121-164210-3f9c"
     assert "--session 20261121-164210-3f9c" in fresh.note(None, Retention(path, 30))
@@ -223,9 +223,9 @@ def test_a_conversation_that_nobody_knows_begins(path: Path) -> None:
 
 
 def test_a_scenario_is_found_again_by_name_or_folder(root: Path, tmp_path: Path) -> None:
-    assert resume.place_of(load("s1")) == "s1"
-    assert resume.place_of(load(root / "sim" / "scenarios" / "s1")) == "s1"
+    assert resume.known_as(load("s1").place) == "s1"
+    assert resume.known_as(load(root / "sim" / "scenarios" / "s1").place) == "s1"
     for source in (root / "sim" / "scenarios" / "s1").iterdir():
         if source.is_file():
             (tmp_path / source.name).write_bytes(source.read_bytes())
-    assert resume.place_of(load(tmp_path)) == str(tmp_path)  # though it says that it is s1
+    assert resume.known_as(load(tmp_path).place) == str(tmp_path)  # though it says that it is s1

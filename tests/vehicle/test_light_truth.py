@@ -38,7 +38,7 @@ def ride(tmp_path_factory: pytest.TempPathFactory):
     folder: Path = signalled(tmp_path_factory.mktemp("truth"))
     scenario = load(folder)
     network = network_of(scenario)
-    with start(scenario, 0, network) as driving:
+    with start(scenario, network) as driving:
         moments = list(driving)
     logic = ET.parse(folder / "cross.net.xml").getroot().find("tlLogic")
     assert logic is not None

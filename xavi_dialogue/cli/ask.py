@@ -14,13 +14,12 @@ from xavi_dialogue.vehicle.episode import network_of, start
 
 
 def ask_once(
-    scenario: Scenario, seed: int, text: str, until: float | None, style: Style = "passenger"
+    scenario: Scenario, text: str, until: float | None, style: Style = "passenger"
 ) -> Reply:
     """Return the reply to a question asked at a moment of the ride.
 
     Args:
-        scenario: to drive.
-        seed: of the ride.
+        scenario: to drive, with the seed of the ride.
         text: the question.
         until: [s] time of the question; None stands for the end of the first lane change or turn.
         style: of the answer.
@@ -31,7 +30,7 @@ def ask_once(
     """
     network = network_of(scenario)
     conversation = Conversation(make_pipeline(), planner_for(network))
-    with start(scenario, seed, network) as ride:
+    with start(scenario, network) as ride:
         at = drive_to(ride, conversation, until)
     began = time.perf_counter()
     reply = conversation.ask(one_line(text)[:MAX_TEXT], at, style)

@@ -43,19 +43,22 @@ def _text(scenario: Scenario, source: FromConfiguration, folder: Path) -> str:
         f"configuration = {_quoted(str(file.relative_to(folder) if inside else file))}",
         *([f"ego = {_quoted(source.rider.id)}"] if isinstance(source.rider, Departing) else []),
         f"step = {scenario.step!r}  # s",
-        f"duration = {scenario.duration!r}  # s, from the ego's departure",
         f"view_radius = {scenario.view_radius!r}  # m",
         f"seed = {scenario.seed}",
-        "",
-        "[goal]",
-        f"edge = {_quoted(scenario.goal.edge)}",
-        f"position = {scenario.goal.position!r}  # m along the edge",
+        f"# duration = {scenario.duration!r}  # s; by default to the end of the configuration",
     ]
     if isinstance(source.rider, Added):
         added = source.rider
         ends = (f"from = {_quoted(added.origin)}", f"to = {_quoted(added.destination)}")
         begin = () if added.begin is None else (f"begin = {added.begin!r}  # s of SUMO's clock",)
         lines += ["", "[ego]", *ends, *begin]
+    # With another seed the ego may depart later and drive elsewhere, so neither is fixed.
+    lines += [
+        "",
+        "# [goal]  # by default the end of the ego's route, which may depend on the seed",
+        f"# edge = {_quoted(scenario.goal.edge)}",
+        f"# position = {scenario.goal.position!r}  # m along the edge",
+    ]
     return "\n".join(lines) + "\n"
 
 

@@ -66,14 +66,13 @@ def drive(
     if duration is not None and real(duration, "duration", DURATIONS) <= 0.0:
         raise LibraryError(f"duration is {duration}; give {DURATIONS}")
     with translated():
-        loaded = load_scenario(place)
+        loaded = load_scenario(place, None if seed is None else int(seed))
         for warning in loaded.warnings:
             warnings.warn(warning, stacklevel=2)
         network = network_of(loaded)
-        own = loaded.seed if seed is None else int(seed)
-        with start(loaded, own, network, duration=duration) as moments:
+        with start(loaded, network, duration=duration) as moments:
             known = [(clock(m), one) for m in moments for one in inputs_of_moment(m)]
-    return _ride(place, own, known, network)
+    return _ride(place, loaded.seed, known, network)
 
 
 def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | None = None) -> Ride:
@@ -193,7 +192,7 @@ def _roads(record: RecordedRide, scenario: str | None) -> Network | None:
         LibraryError: the scenario that is named has other roads.
     """
     try:
-        network = network_of(load_scenario(scenario or record.scenario))
+        network = network_of(load_scenario(scenario or record.scenario, record.seed))
     except SimError:
         if scenario is not None:
             raise

@@ -6,6 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from sim.setup.scenario import Scenario
+from sim.setup.scenario import place_of as find_place
 from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.rows import Summary
@@ -26,21 +27,22 @@ class ResumePoint:
         known = None if self.before is None else self.before.scenario
         return asked or known or DEFAULT_SCENARIO
 
-    def seed(self, asked: int | None, scenario: Scenario) -> int:
-        """Return the seed: as asked, else as before in the same scenario, else the scenario's."""
-        if asked is not None:
-            return asked
-        before = self.before
-        if before is None or before.seed is None or before.scenario != place_of(scenario):
-            return scenario.seed
-        return before.seed
+    def seed(self, asked: int | None, place: str) -> int | None:
+        """Return the seed: as asked, else as before in the same scenario; None: the scenario's.
 
-    def moment(self, scenario: Scenario, seed: int) -> float | None:
+        Raises:
+            SimError: there is no scenario at this place.
+        """
+        if asked is not None or self.before is None:
+            return asked
+        return self.before.seed if self.before.scenario == known_as(find_place(place)) else None
+
+    def moment(self, scenario: Scenario) -> float | None:
         """Return the time [s] of the last question; None if it was about another ride."""
-        return self.moment_in(place_of(scenario), seed)
+        return self.moment_in(known_as(scenario.place), scenario.seed)
 
     def moment_in(self, place: str | None, seed: int | None) -> float | None:
-        """Return the same of a ride by its place, see `place_of`, and seed."""
+        """Return the same of a ride by its place, see `known_as`, and seed."""
         before = self.before
         same = before is not None and (before.scenario, before.seed) == (place, seed)
         return before.sim_time if before is not None and same else None
@@ -83,11 +85,14 @@ def fresh(now: datetime, salt: str) -> ResumePoint:
     return ResumePoint(f"{now:%Y%m%d-%H%M%S}-{salt}")
 
 
-def place_of(scenario: Scenario) -> str | None:
-    """Return how to load a scenario later: its name if it is built in, else its path."""
-    ours = Path(str(files("sim"))) / "scenarios" / scenario.name
-    if ours.resolve() == scenario.folder.resolve():
-        return scenario.name
-    place = scenario.place
+def known_as(place: str) -> str | None:
+    """Return how to load the scenario at a place later: its name if it is built in, else its path.
+
+    Args:
+        place: as a scenario states it.
+    """
+    folder = Path(place).resolve()
+    if folder.parent == Path(str(files("sim"))).resolve() / "scenarios":
+        return folder.name
     # The name of a folder may not be valid text; then it cannot be sent.
     return place if place.encode(errors="replace").decode() == place else None

@@ -132,12 +132,12 @@ def replay_recorded(transcript: Transcript, ride: RecordedRide, pipeline: Pipeli
 
 def replay_driven(written: Sequence[Written]) -> Replayed:
     """Replay the transcripts of one ride by driving it again."""
-    scenario, seed = load_scenario(written[0].scenario), written[0].seed
+    scenario = load_scenario(written[0].scenario, written[0].seed)
     network = network_of(scenario)
     pipeline = make_pipeline()
     known = Conversation(pipeline, planner_for(network))
     last = max(latest(one.transcript) for one in written)
-    with start(scenario, seed, network) as ride:
+    with start(scenario, network) as ride:
         halt = drive_to(ride, known, None)
         for moment in ride if last > halt else ():
             known.record(moment)
@@ -145,7 +145,7 @@ def replay_driven(written: Sequence[Written]) -> Replayed:
                 break
     recorded = RecordedRide(
         scenario=written[0].scenario,
-        seed=seed,
+        seed=scenario.seed,
         halt=halt,
         traces=list(known.dialogue.traces),
         events=list(known.dialogue.events),

@@ -124,7 +124,6 @@ def settings_of(scenario: Scenario, trees: int = 1) -> Settings:
 @contextmanager
 def start(
     scenario: Scenario,
-    seed: int,
     network: Network,
     *,
     duration: float | None = None,
@@ -134,8 +133,7 @@ def start(
     """Start SUMO and the driver; the ride advances as its moments are taken.
 
     Args:
-        scenario: to drive.
-        seed: of the ride.
+        scenario: to drive, with the seed of the ride.
         network: of the scenario.
         duration: [s] after which the ride ends; None: the scenario's.
         vehicle: name of the car on the bus.
@@ -146,12 +144,12 @@ def start(
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     settings = settings_of(scenario, trees)
-    searched = TreeOfRide(goal, settings, seed, vehicle)
+    searched = TreeOfRide(goal, settings, scenario.seed, vehicle)
     with (
-        Simulation(scenario, seed) as world,
+        Simulation(scenario) as world,
         search_workers(scenario.network, searched) as elsewhere,
         settled(),
     ):
-        driver = Driver(network, goal, settings, seed, vehicle, elsewhere)
+        driver = Driver(network, goal, settings, scenario.seed, vehicle, elsewhere)
         limit = scenario.duration if duration is None else min(duration, scenario.duration)
         yield moments(world, driver, scenario.step, limit)

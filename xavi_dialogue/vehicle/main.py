@@ -19,7 +19,7 @@ from sim.sumo import EgoGone, SumoFailed
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.process import child_commands
-from xavi_dialogue.storage.resume import place_of
+from xavi_dialogue.storage.resume import known_as
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, save
 from xavi_dialogue.vehicle.bus_session import (
     CHILD_PATIENCE,
@@ -113,15 +113,13 @@ class DriveOptions:
 
 def drive(
     scenario: Scenario,
-    seed: int,
     options: DriveOptions,
     signals: child_commands.Signals | None = None,
 ) -> Summary:
     """Drive a scenario to its end, or until asked to quit.
 
     Args:
-        scenario: to drive.
-        seed: of the ride.
+        scenario: to drive, with the seed of the ride.
         options: of the ride.
         signals: record the signals that arrive; None: new ones.
 
@@ -141,15 +139,16 @@ def drive(
     signals.listen(orders, FORCED)
     if options.controlled:
         child_commands.listen(sys.stdin, orders)
-    tally = SummaryRecorder(Summary(scenario.name, seed))
-    log = RideLog(RecordedRide(scenario.name, seed, 0.0))
+    tally = SummaryRecorder(Summary(scenario.name, scenario.seed))
+    known = known_as(scenario.place) or scenario.name
+    log = RideLog(RecordedRide(known, scenario.seed, 0.0))
     records = (tally.record, *((log.record,) if options.save else ()))
     with (
         suppress(QuitBeforeRide),
         _remedied(scenario),
         _joined_to_bus(scenario, options, signals) as bus_session,
     ):
-        _drive(scenario, seed, options, _Connections(orders, records, bus_session))
+        _drive(scenario, options, _Connections(orders, records, bus_session))
     if options.save is not None:
         save(log.ride, options.save)
     tally.summary.wall_s = round(time.monotonic() - began, 3)
@@ -166,15 +165,17 @@ class _Connections:
     bus_session: BusSession | None
 
 
-def _drive(scenario: Scenario, seed: int, options: DriveOptions, connections: _Connections) -> None:
+def _drive(scenario: Scenario, options: DriveOptions, connections: _Connections) -> None:
     reporter, records, bus_session = None, connections.records, connections.bus_session
     if bus_session is not None:
         keys = Keys(options.vehicle)
-        reporter = Reporter(bus_session.outbox, keys, place_of(scenario), seed, bus_session.alive)
+        reporter = Reporter(
+            bus_session.outbox, keys, known_as(scenario.place), scenario.seed, bus_session.alive
+        )
         records = (*records, bus_session.planning.record)
     network = network_of(scenario)
-    _LOG.info("the ride begins", extra={"scenario": scenario.name, "seed": seed})
-    with start(scenario, seed, network, duration=options.duration, trees=options.trees) as ride:
+    _LOG.info("the ride begins", extra={"scenario": scenario.name, "seed": scenario.seed})
+    with start(scenario, network, duration=options.duration, trees=options.trees) as ride:
         pace = Pace(options.speed, running=not options.controlled)
         VehicleNode(
             ride, scenario.step, records, reporter, connections.orders, pace, options.controlled

@@ -2,7 +2,7 @@
 
 import itertools
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
@@ -48,7 +48,7 @@ def drive(scenario: Scenario, seed: int) -> Ride:
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     driver = Driver(read_network(scenario.network), goal, Settings(), seed)
     scenes, traces, events, collisions = [], [], [], []
-    with Simulation(scenario, seed) as simulation:
+    with Simulation(replace(scenario, seed=seed)) as simulation:
         scene = simulation.scene()
         while not driver.finished and scene.time < scenario.duration:
             step = driver.step(scene, scenario.step)

@@ -42,7 +42,7 @@ def ridden(folder: Path, *, house: bool, others: str = "") -> Ride:
     driver = Driver(network, goal, QUICK, 0)
     traces: list[PlanTrace] = []
     speeds, collisions = [], 0
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         scene = world.scene()
         while not driver.finished and scene.time < 45.0:
             step = driver.step(scene, scenario.step)

@@ -41,7 +41,7 @@ class Ride:
         self.traces: list[PlanTrace] = []
         self.events = []
         self.hit: set[int] = set()
-        with Simulation(scenario, 0) as simulation:
+        with Simulation(scenario) as simulation:
             scene = simulation.scene()
             while not driver.finished and scene.time < lasting:
                 step = driver.step(scene, scenario.step)

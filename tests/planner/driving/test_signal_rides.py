@@ -52,7 +52,7 @@ def drive(folder: Path, *, lasting: float) -> Ride:
     events: list[Event] = []
     collisions: list[int] = []
     passed = []
-    with Simulation(scenario, 0) as simulation:
+    with Simulation(scenario) as simulation:
         scene = simulation.scene()
         while not driver.finished and scene.time < lasting:
             step = driver.step(scene, scenario.step)

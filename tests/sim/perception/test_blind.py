@@ -77,7 +77,7 @@ def test_many_places_are_told_as_each_is(
 
 @pytest.mark.slow
 def test_a_lorry_hides_what_is_before_it() -> None:
-    with Simulation(load("motorway"), 0) as world:
+    with Simulation(load("motorway", 0)) as world:
         scene = world.scene()
     lanes = {stretch.lane for stretch in scene.unseen}
     assert "road_0" in lanes
@@ -88,7 +88,7 @@ def test_a_lorry_hides_what_is_before_it() -> None:
 
 @pytest.mark.slow
 def test_among_cars_everything_is_seen() -> None:
-    with Simulation(load("s1"), 0) as world:
+    with Simulation(load("s1", 0)) as world:
         assert world.scene().unseen == ()
 
 

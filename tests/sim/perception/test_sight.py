@@ -98,7 +98,7 @@ def test_a_line_along_a_side_only_touches() -> None:
 
 @pytest.mark.slow
 def test_the_lorry_of_the_motorway_hides_the_car_ahead_until_the_ego_pulls_out() -> None:
-    with Simulation(load("motorway"), 0) as world:
+    with Simulation(load("motorway", 0)) as world:
         scene = world.scene()
         assert 1 in scene.vehicles
         assert 2 not in scene.vehicles
@@ -112,7 +112,7 @@ def test_the_lorry_of_the_motorway_hides_the_car_ahead_until_the_ego_pulls_out()
 
 def sights(scenario: Scenario, steps: int) -> list[tuple[int, ...]]:
     """Who is in view, step by step, with an ego that SUMO drives."""
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         return [tuple(world.step(None).vehicles) for _ in range(steps)]
 
 
@@ -129,7 +129,7 @@ def test_a_name_is_kept_when_its_vehicle_is_seen_again() -> None:
 @pytest.mark.parametrize("name", ["s1", "s2"])
 def test_cars_alone_hide_nobody(name: str) -> None:
     scenario = load(name)
-    with Simulation(replace(scenario, view_radius=500.0), 0) as world:
+    with Simulation(replace(scenario, view_radius=500.0)) as world:
         scenes = [world.step(None) for _ in range(60)]
     assert all(set(scene.vehicles) == {EGO, 1, 2} for scene in scenes)
 
@@ -191,7 +191,7 @@ def test_people_are_in_the_scene_and_houses_hide_them(tmp_path: Path) -> None:
     routes = ROUTES.replace("</routes>", f'<person id="ego" depart="0">{walks}</routes>')
     guessed = ("--sidewalks.guess", "--crossings.guess")
     scenario = load(signalled(tmp_path, routes, *guessed))
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         assert world.scene().people == {}
         while not world.scene().people:
             scene = world.step(None)

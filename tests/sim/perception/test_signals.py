@@ -133,7 +133,7 @@ def test_rail_crossings_are_known(cross: Path) -> None:
 
 @pytest.mark.slow
 def test_the_scene_shows_what_sumo_shows(cross: Path, network: Network) -> None:
-    with Simulation(load(cross), 0) as world:
+    with Simulation(load(cross, 0)) as world:
         scene = world.scene()
         assert scene.lights == ()  # 130 m to go
         while scene.ego.position[0] < network.lanes["left0A0_0"].centreline[-1][0] - 30.0:
@@ -152,7 +152,7 @@ def test_the_scene_shows_what_sumo_shows(cross: Path, network: Network) -> None:
 
 @pytest.mark.slow
 def test_a_light_that_is_switched_off_shows_it(tmp_path: Path) -> None:
-    with Simulation(load(signalled(tmp_path)), 0) as world:
+    with Simulation(load(signalled(tmp_path))) as world:
         while not world.scene().lights:
             world.step(None)
         world._api.trafficlight.setProgram("A0", "off")

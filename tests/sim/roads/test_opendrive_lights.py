@@ -57,7 +57,7 @@ def test_a_light_of_the_map_controls_the_car(bend: Path, priority: bool) -> None
     assert scenario.warnings == ()
     assert all(controls(scenario).values())
     roads = Roads(read_network(scenario.network))
-    with Simulation(scenario, 0) as simulation:
+    with Simulation(scenario) as simulation:
         scene = simulation.scene()
     ego = scene.ego
     here = lanes_at(roads, ego.position, ego.heading)[0]

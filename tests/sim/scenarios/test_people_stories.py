@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
@@ -22,7 +23,7 @@ HALF_ROAD = 4.85  # [m] from the middle of the main road to the kerb
 def scenes(seed: int) -> list[Scene]:
     """The ride with an ego that SUMO drives, up to the zebra crossing."""
     found = []
-    with Simulation(JUNCTION, seed) as world:
+    with Simulation(replace(JUNCTION, seed=seed)) as world:
         while world.time < 70.0 and world.scene().ego.position[1] > ZEBRA - 10.0:
             found.append(world.step(None))
             assert world.collisions() == ()

@@ -1,6 +1,7 @@
 """What SUMO makes of the shipped scenarios, seed by seed."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -24,7 +25,7 @@ def ride_in_lane(seed: int, acceleration: float = 2.0) -> list[Scene]:
     line = lane_line(network, "main_in_0", ":J_10_0", "main_out_0")
     driver = LaneFollower(line, S1.step, acceleration=acceleration)
     scenes = []
-    with Simulation(S1, seed) as world:
+    with Simulation(replace(S1, seed=seed)) as world:
         while world.scene().ego.position[0] < 159.5 and world.time < S1.duration:
             scenes.append(world.scene())
             world.step(driver.command(world.scene()))
@@ -98,7 +99,7 @@ def test_the_ego_of_s2_comes_to_its_line_while_vehicle_1_slows_or_stands(seed: i
 
 @pytest.mark.parametrize("seed", range(10))
 def test_vehicle_1_of_s2_stands_whatever_the_ego_does(seed: int) -> None:
-    with Simulation(S2, seed) as world:
+    with Simulation(replace(S2, seed=seed)) as world:
         x, y = world.scene().ego.position
         pose = Command((x, y), world.scene().ego.heading, 0.0)
         scenes = [world.step(pose) for _ in range(140)]
@@ -113,7 +114,7 @@ def ride_by_sumo(seed: int) -> list[Scene]:
 
 def scenes_by_sumo(scenario: Scenario, seed: int, until: float) -> list[Scene]:
     """Scenes up to a time [s] with an ego that SUMO drives."""
-    with Simulation(scenario, seed) as world:
+    with Simulation(replace(scenario, seed=seed)) as world:
         scenes = []
         while world.time < until:
             scenes.append(world.step(None))

@@ -1,5 +1,7 @@
 """Every shipped scenario can be driven: SUMO's own driver takes the ego to its goal."""
 
+from dataclasses import replace
+
 import pytest
 
 from sim.roads.netfile import read_network
@@ -20,7 +22,7 @@ def ride_to_goal(scenario: Scenario, seed: int) -> list[Scene]:
     network = read_network(scenario.network)
     lanes = {lane.id for lane in network.edge_lanes(scenario.goal.edge)}
     scenes = []
-    with Simulation(scenario, seed) as world:
+    with Simulation(replace(scenario, seed=seed)) as world:
         while world.time < scenario.duration:
             scenes.append(world.step(None))
             assert world.collisions() == ()
@@ -65,7 +67,7 @@ def test_the_route_of_the_ego_leads_to_its_goal(name: str) -> None:
 
 
 def test_twelve_vehicles_are_about_on_the_motorway() -> None:
-    with Simulation(load("motorway"), 0) as world:
+    with Simulation(load("motorway", 0)) as world:
         ahead = world.step(None)
     assert len(ahead.vehicles) > 10
     kinds = {state.kind for name, state in ahead.vehicles.items() if name != EGO}

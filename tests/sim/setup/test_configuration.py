@@ -1,6 +1,7 @@
 """SUMO configurations as scenarios: all that SUMO loads, and what cannot be used."""
 
 import gzip
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -69,7 +70,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def ridden(scenario: Scenario, steps: int) -> tuple[set[int], set[str], set[LightState]]:
     """The names and kinds of the vehicles seen, and the states of the lights."""
     names, kinds, states = set(), set(), set()
-    with Simulation(scenario, scenario.seed) as world:
+    with Simulation(scenario) as world:
         for _ in range(steps):
             scene = world.step(None)
             names |= set(scene.vehicles)
@@ -105,7 +106,7 @@ def test_a_car_is_added(file: Path) -> None:
     assert (scenario.ego, scenario.goal.edge) == ("ego", "A0left0")
     assert scenario.duration == pytest.approx(150.0 - 60.0, abs=2.0)
     assert load(scenario.place) == scenario
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         scene = world.scene()
         assert scene.time == 0.0
         assert scene.ego.position[1] > 250.0  # at the outer end of the northern arm
@@ -117,13 +118,13 @@ def test_a_ride_that_begins_at_the_end_goes_on_beyond_it(file: Path, begin: int)
     scenario = load(f"{file}?from=top0A0&to=A0left0&begin={begin}")
     assert scenario.duration > 600.0
     assert "it ends at 150 s, but the ride goes on to its destination" in scenario.warnings
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         assert world.scene().vehicles
         assert world.step(None).time > 0.0
 
 
 def test_a_car_is_added_at_the_beginning_by_itself(file: Path) -> None:
-    with Simulation(load(f"{file}?from=top0A0&to=A0left0"), 0) as world:
+    with Simulation(load(f"{file}?from=top0A0&to=A0left0", 0)) as world:
         assert world._engine.api.simulation.getTime() == pytest.approx(30.0, abs=3.0)
 
 
@@ -136,7 +137,7 @@ def test_a_seed_gives_one_ride(file: Path) -> None:
     scenario = load(f"{file}?ego=late")
 
     def ride(seed: int) -> list[object]:
-        with Simulation(scenario, seed) as world:
+        with Simulation(replace(scenario, seed=seed)) as world:
             return [world.step(None) for _ in range(60)]
 
     assert ride(1) == ride(1)
@@ -207,7 +208,7 @@ def test_what_sumo_says_of_others_before_the_ego_departs_is_not_shown(
         <vehicle id="hasty" depart="31" departPos="53" departSpeed="13" insertionChecks="none">
         <route edges="bottom0A0 A0top0"/></vehicle></routes>"""
     file = configured(tmp_path, ROUTES.replace("</routes>", hasty))
-    with Simulation(load(f"{file}?ego=late"), 0):
+    with Simulation(load(f"{file}?ego=late", 0)):
         pass
     assert capfd.readouterr().err == ""
 
@@ -222,7 +223,7 @@ def test_what_is_not_modelled_is_named(tmp_path: Path) -> None:
     (tmp_path / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode(), mtime=0))
     scenario = load(f"{file}?ego=late")
     told = scenario.warnings
-    with Simulation(scenario, 0) as world:
+    with Simulation(scenario) as world:
         assert world._engine.api.vehicle.getStops("late") == ()
     for words in (
         "steps of 1 s are shortened to 0.1 s",
@@ -250,8 +251,7 @@ def test_a_folder_may_name_a_configuration(file: Path, tmp_path: Path) -> None:
     assert again.source == loaded.source
     assert (again.goal, again.seed, again.step) == (loaded.goal, loaded.seed, loaded.step)
     assert (again.name, again.place) == ("mine", str(tmp_path / "mine"))
-    text = target.read_text().replace('edge = "A0left0"', 'edge = "A0left"')
-    target.write_text(text)
+    target.write_text(f'{target.read_text()}[goal]\nedge = "A0left"\nposition = 1.0\n')
     with pytest.raises(ScenarioInvalid, match=r"goal\.edge: there is no edge 'A0left'"):
         load(tmp_path / "mine")
     with pytest.raises(ScenarioInvalid, match="it is there already"):
@@ -265,6 +265,33 @@ def test_a_folder_names_a_vehicle_and_changes_the_seed(file: Path) -> None:
     target.write_text(target.read_text().replace("seed = 23423", "seed = 7"))
     again = load(folder)
     assert (again.ego, again.seed) == ("late", 7)
+
+
+DRAWN = """
+<routes>
+    <routeDistribution id="somewhere">
+        <route id="east" edges="left0A0 A0right0" probability="1"/>
+        <route id="north" edges="left0A0 A0top0" probability="1"/>
+        <route id="south" edges="left0A0 A0bottom0" probability="1"/>
+    </routeDistribution>
+    <flow id="before" begin="30" end="90" probability="0.4" route="somewhere"/>
+    <flow id="drawn" begin="33" end="90" probability="0.4" route="somewhere"/>
+</routes>
+"""
+
+
+def test_the_goal_is_where_the_seed_leads(tmp_path: Path) -> None:
+    place = f"{configured(tmp_path, DRAWN)}?ego=drawn.3"
+    folder = write(load(place), tmp_path / "written").parent
+    goals = set()
+    for seed in range(5):
+        scenario = load(place, seed)
+        with Simulation(scenario) as world:
+            route = world._engine.api.vehicle.getRoute("drawn.3")
+        assert scenario.goal.edge == route[-1]
+        assert (scenario.seed, load(folder, seed).goal) == (seed, scenario.goal)
+        goals.add(route[-1])
+    assert len(goals) > 1
 
 
 def test_the_first_car_that_departs_is_chosen(file: Path) -> None:

@@ -126,13 +126,13 @@ def _drive(
     going = resume.fresh(datetime.now().astimezone(), token_hex(2))
     if session is not None:
         going = resume.find(keeping, session)
-    loaded = shell.load(going.place(scenario))
-    seed = going.seed(seed, loaded)
-    at = going.moment(loaded, seed)
+    place = going.place(scenario)
+    loaded = shell.load(place, going.seed(seed, place))
+    at = going.moment(loaded)
     if session is None or keeping is None or going.before is not None:
         shell.note(going.note(at, keeping))
     passenger = passenger_of(going.session, share, kept=keeping is not None)
-    ride = ChatOptions(loaded.place, loaded.name, seed, passenger, keeping, at)
+    ride = ChatOptions(loaded.place, loaded.name, loaded.seed, passenger, keeping, at)
     if recording is not None:
         ride = replace(ride, record=recording.path, overwrite=recording.overwrite)
     if _terminal(as_json):
@@ -206,8 +206,8 @@ def _ask(shell: Streams) -> Callable[..., None]:
             from xavi_dialogue.cli.ask import ask_once
 
             asked = place(scenario, ego, ego_from, ego_to, begin)
-            loaded = shell.load(asked or DEFAULT_SCENARIO)
-            return ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
+            loaded = shell.load(asked or DEFAULT_SCENARIO, seed)
+            return ask_once(loaded, text, at, style)
 
         def under_way(there: "RemoteCar") -> "Reply":
             from xavi_dialogue.chat.remote_backend import ask_there

@@ -27,11 +27,17 @@ class Streams:
     note: Callable[[str], None]  # writes to standard error
     lines: Callable[[], Iterator[str]]  # lines of standard input, even with invalid bytes
 
-    def load(self, name: str, *, told: bool = False) -> "Scenario":
-        """Load a scenario, and print its warnings unless the parent process did."""
+    def load(self, name: str, seed: int | None, *, told: bool = False) -> "Scenario":
+        """Load a scenario, and print its warnings unless the parent process did.
+
+        Args:
+            name: or path.
+            seed: of the ride; None: the scenario's.
+            told: whether the parent process did.
+        """
         from sim.setup.scenario import load
 
-        scenario = load(name)
+        scenario = load(name, seed)
         for warning in () if told else scenario.warnings:
             self.note(f"warning: {warning}")
         return scenario

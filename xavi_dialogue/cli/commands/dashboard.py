@@ -182,12 +182,12 @@ def _own(
 
     if replay is None:
         going = find(keeping, passenger.session)
-        loaded = shell.load(going.place(scenario))
-        chosen = going.seed(seed, loaded)
-        at = going.moment(loaded, chosen)
+        there = going.place(scenario)
+        loaded = shell.load(there, going.seed(seed, there))
+        at = going.moment(loaded)
         if going.before is not None:
             shell.note(going.note(at, keeping))
-        return ChatOptions(loaded.place, loaded.name, chosen, passenger, keeping, at)
+        return ChatOptions(loaded.place, loaded.name, loaded.seed, passenger, keeping, at)
     if scenario is not None or seed is not None:
         raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
     next(read(replay), None)  # raises at once if it is no recording

@@ -105,7 +105,7 @@ def _scenario_new(shell: Streams) -> Callable[..., None]:
 
         with shell.errors():
             asked = place(str(configuration), ego, ego_from, ego_to, begin)
-            loaded = shell.load(with_rider(asked or str(configuration)))
+            loaded = shell.load(with_rider(asked or str(configuration)), None)
             shell.write(str(write(loaded, folder)))
 
     return new

@@ -96,7 +96,7 @@ def _drive(shell: Streams) -> Callable[..., None]:
 
         with shell.errors():
             asked = place(scenario, ego, ego_from, ego_to, begin) or scenario
-            loaded = shell.load(asked, told=control)
+            loaded = shell.load(asked, seed, told=control)
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
             replanning, signals = ReplanningOptions(workers, waiting), Signals()
             name = vehicle or DEFAULT_VEHICLE
@@ -104,7 +104,7 @@ def _drive(shell: Streams) -> Callable[..., None]:
             manner = DriveOptions(
                 speed or 0.0, duration, link, name, control, file, replanning, trees
             )
-            summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
+            summary = drive(loaded, manner, signals)
             if file is not None:
                 shell.note(f"the decisions are in {file}")
         if not control:

@@ -42,7 +42,7 @@ class Rides:
         if (house, routes) not in self.driven:
             scenario = at_the_corner(self.made(), house=house, routes=routes)
             network = network_of(scenario)
-            with start(scenario, 0, network) as ride:
+            with start(scenario, network) as ride:
                 seen = takewhile(lambda moment: clock(moment) <= LONGEST + 1e-6, ride)
                 self.driven[house, routes] = network, tuple(seen)
         network, moments = self.driven[house, routes]
