@@ -1,7 +1,14 @@
 """Answers about traffic lights; golden/light.txt has the texts."""
 
 from tests.nlg.scenery import NOW
-from xavi_dialogue.domain.answers import Answer, MotionCause, MotionReason, OtherReason, Verdict
+from xavi_dialogue.domain.answers import (
+    Answer,
+    MotionCause,
+    MotionReason,
+    OtherReason,
+    Unslowed,
+    Verdict,
+)
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event, Everyone, Feature, Happens, Vehicle
 from xavi_dialogue.domain.traffic_lights import (
@@ -141,4 +148,13 @@ CASES: tuple[Answer, ...] = (
     LightTold("colour", whose=Vehicle(1)),
     MotionReason(Episode(E, "stop", 4.0, speed_to=0.0, standing=True),
                  (MotionCause("light", shown=WAS_RED),), asked="stand"),
+    LightTold("colour", whose=Vehicle(1), own=RED, around=True),
+    LightTold("colour", whose=Everyone(), around=False),
+    LightTold("colour", whose=Everyone(), own=RED, around=True, past=True),
+    LightTold("colour", whose=Everyone(), own=RED, around=False, past=True),
+    LightTold("why", whose=Everyone(), own=RED, around=True),
+    SupposedOfLight(GREEN, "green", NOW, ("continue",), ("continue",), True, False, past=False),
+    SupposedOfLight(GREEN, "green", NOW, ("continue",), ("continue",), True, False, past=False,
+                    holds=True, first=(1,)),
+    Unslowed(Episode(E, "wait", NOW, speed_from=0.0), None, red=True, past=False),
 )  # fmt: skip

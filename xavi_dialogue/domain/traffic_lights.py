@@ -87,6 +87,7 @@ class LightTold(Value, frozen=True):
     others: tuple[Crossed, ...] = ()  # lights that showed another colour when we passed them
     whose: Thing | None = None  # who faces it, if that is somebody else
     own: Shown | None = None  # what ours showed then, if theirs is not known
+    around: bool | None = None  # another light of the junction was green; None: none was seen
 
 
 class LightForeseen(Value, frozen=True):

@@ -114,3 +114,70 @@ def test_when_we_saw_a_light_first_is_when_it_came_into_view(text: str) -> None:
 )
 def test_a_wait_that_ends_with_the_red_light_is_not_after_it(text: str) -> None:
     assert Talk("junction-0", 29.0).hear(text).startswith("No, I did not stop")
+
+
+@pytest.mark.parametrize("text", ["can we go now", "could we just go?"])
+def test_rolling_slowly_up_to_a_red_light_is_not_going(text: str) -> None:
+    assert Talk("city-0", 14.0).hear(text).startswith("Not yet: the traffic light")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["what happens if you just drive on?", "what would happen if we went now", "what if we go?"],
+)
+def test_what_comes_of_going_at_red_is_whom_we_would_meet(text: str) -> None:
+    told = Talk("junction-0", 22.0).hear(text)
+    assert told.startswith("That would be against a red light. We would be across")
+
+
+def test_whoever_is_met_at_red_nothing_is_no_answer() -> None:
+    told = Talk("city-0", 14.0).hear("what happens if you just drive on?")
+    assert told == "That would be against a red light. As far as I know, nobody is in our way."
+
+
+@pytest.mark.parametrize(
+    "text", ["would you be braking if it were green now?", "would you brake if the light was green"]
+)
+def test_of_a_light_that_is_green_it_is_told_who_holds_us_all_the_same(text: str) -> None:
+    told = Talk("city-0", 28.0).hear(text)
+    assert told.startswith("Yes, the traffic light is green already, but I have to let the three")
+
+
+def test_a_light_that_we_have_passed_makes_us_wait_no_more() -> None:
+    told = Talk("city-0", 28.0).hear("would you brake if the light was red now")
+    assert told.startswith("We passed the traffic light")
+
+
+@pytest.mark.parametrize(
+    "text", ["why did you slow down so early?", "why did we slow down at first"]
+)
+def test_slowing_so_early_is_explained_by_how_it_began(text: str) -> None:
+    assert Talk("city-0", 15.0).hear(text).endswith("the bend in the road at a safe speed.")
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("do you know when it changes?", "Ask(When(Happens(Event(turn-colour, Pronoun(it)"),
+        ("do you know when we arrive", "Ask(When(Happens(Event(arrive"),
+        ("what would happen if we went now", "Ask(WhatIf(Happens(Event(go, tense=present))"),
+    ],
+)
+def test_when_is_asked_and_now_is_now(text: str, asked: str) -> None:
+    assert read(text).startswith(asked)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["do the other cars have green?", "is the other side green", "who has green now?",
+     "does anybody else have green?"],
+)  # fmt: skip
+def test_whether_others_have_green_is_told_of_the_lights_in_view(text: str) -> None:
+    told = Talk("city-0", 14.0).hear(text)
+    assert told.startswith("Some of the other lights at this junction are green")
+    assert told.endswith("the one on our way is red.")
+
+
+def test_nobody_has_green_while_all_lights_in_view_are_red() -> None:
+    told = Talk("junction-0", 25.0).hear("does anybody else have green?")
+    assert told.startswith("I see no other light at this junction that is green")

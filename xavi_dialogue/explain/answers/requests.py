@@ -177,10 +177,11 @@ def _cause(asked: Asked) -> MotionCause | None:
     Raises:
         Unanswered: rollouts are needed.
     """
-    trend = activity(asked, Ego(), asked.now).trend
-    if trend not in ("standing", "slowing"):
+    now = activity(asked, Ego(), asked.now)
+    slowing = any(e.action in GENTLER and e.end is None for e in now.doing)  # however gently
+    if now.trend not in ("standing", "slowing") and not slowing:
         return None
-    name: ActionName = "stand" if trend == "standing" else "slow-down"
+    name: ActionName = "stand" if now.trend == "standing" else "slow-down"
     try:
         found = motions.motion(Event(name, tense="present"), asked)
     except Unanswered as unanswered:

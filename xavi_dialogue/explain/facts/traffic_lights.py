@@ -82,6 +82,17 @@ def colour_at(ride: Ride, signal: Signal, time: float) -> LightColour | None:
     return None if one is None else COLOURS.get(one.state)
 
 
+def green_around(ride: Ride, time: float) -> bool | None:
+    """Check whether another light of the junction of ours was green; None if none was in view."""
+    ours, trace = meant(ride, Feature("light"), time), ride.at(time)
+    known = None if ours is None or trace is None else _prediction(trace, ours)
+    if known is None or ours is None:
+        return None
+    others = (Signal(known.controller, place) for place in known.places if place != ours.index)
+    seen = {colour_at(ride, one, time) for one in others} - {None}
+    return "green" in seen if seen else None
+
+
 def told(ride: Ride, signal: Signal, one: Stretch, light: Feature) -> Shown:
     """Return what a light showed over a stretch, as a value of answers."""
     goes_on = not one.changed and one.end >= ride.now - STALE

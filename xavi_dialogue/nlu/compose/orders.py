@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Proposition,
     Related,
+    Relative,
 )
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -70,8 +71,8 @@ class Orders(Telling):
         if isinstance(value, Special) and (value.name in _TELLING or sees):
             if clause.question is not None:
                 return self.embedded(clause) or None
-            if (value.name == "know" or sees) and clause.condition is not None and not clause.led:
-                asked = self.asked_if(clause)  # "do you know if it is turning"
+            if (value.name == "know" or sees) and not clause.led and _inquires(clause):
+                asked = self.asked_if(clause)  # "do you know if it is turning", "when it turns"
                 return None if asked is None else (Ask(asked),)
             modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
             modal = modal or "semi-mind" in clause.aux
@@ -264,6 +265,12 @@ class Orders(Telling):
 def within_limit() -> Proposition:
     """Say that we keep to the speed limit."""
     return Compares(Measured("speed"), "at-most", Measured("limit"))
+
+
+def _inquires(clause: Clause) -> bool:
+    """Check whether "if" or "when" opens a clause that is the object of what we know."""
+    timed = isinstance(clause.time, Relative) and clause.time.relation == "during"
+    return clause.condition is not None or (timed and not clause.objects and clause.that is None)
 
 
 def _wavers(value: Any) -> bool:

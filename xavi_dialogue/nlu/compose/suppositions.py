@@ -3,11 +3,10 @@
 from typing import Any, Final
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, HowKnow, WhatIf, Why
-from xavi_dialogue.domain.terms import Ego, Everyone, Happens, Not, Pronoun, Proposition, Unsaid
-from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.domain.terms import Ego, Everyone, Pronoun, Proposition, Unsaid
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, node_of, words_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, node_of
 from xavi_dialogue.nlu.compose.wh_questions.frames import is_contrary, is_short
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -93,8 +92,6 @@ class Suppositions:
         supposed = self.composer.questions.supposition(outer)
         if supposed is None:
             return []
-        if " now " in f"{words_of(unit)} ":
-            supposed = at_once(supposed)
         if leaf_of(unit, "WHATIF") is None and question is None:
             return [((Ask(WhatIf(supposed)),), 0.1)]
         if isinstance(question, Why) and not is_contrary(question):
@@ -133,16 +130,6 @@ class Suppositions:
 def _bare_subject(clause: Clause) -> bool:
     return not (clause.objects or clause.adjectives or clause.comparisons or clause.complements
                 or clause.bearings or clause.manner)  # fmt: skip
-
-
-def at_once(of: Proposition) -> Proposition:
-    """Say that what is supposed would come now: "if he stopped now"."""
-    match of:
-        case Not(content=content):
-            return Not(at_once(content))
-        case Happens(event=event) if event.tense == "past":
-            return Happens(with_fields(event, tense="present"))
-    return of
 
 
 def suppose(supposed: Proposition) -> Act:

@@ -5,12 +5,11 @@ from typing import Any
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Doing, Whether, Which
+from xavi_dialogue.domain.meaning import Whether, Which
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
-    Exists,
     Happens,
     Is,
     Not,
@@ -52,25 +51,6 @@ def test_whether_we_may_go_is_a_matter_of_the_light(scene: Any, that: Any, turn:
     assert lights_turn.is_turn(that, scene) is turn
     scene.light = None
     assert not lights_turn.is_turn(that, scene)
-
-
-@pytest.mark.parametrize(
-    ("that", "then", "now"),
-    [
-        (Happens(GO), None, True),
-        (Happens(GO), Doing(), True),
-        (Happens(GO), Whether(Not(Exists(Everyone()))), True),
-        (Happens(GO), Whether(Happens(Event("collide", tense="present"))), False),
-        (Happens(Event("go", tense="past")), None, False),
-        (Happens(Event("exit-left", tense="present")), None, False),
-        (Happens(Event("go", Vehicle(1), tense="present")), None, False),
-        (Not(Happens(GO)), None, False),
-    ],
-)
-def test_going_on_is_not_supposed_at_red(scene: Any, that: Any, then: Any, now: bool) -> None:
-    assert lights_turn.goes_now(that, then, scene) is now
-    scene.light = None
-    assert not lights_turn.goes_now(that, then, scene)
 
 
 def test_the_reply_is_no(scene: Any) -> None:

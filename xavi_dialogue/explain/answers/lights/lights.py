@@ -98,8 +98,6 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_seen.how_long if past else lights_ahead.staying)
         case HowKnow(of) if of is not None and lights_ahead.is_change(of):
             return _asked(lights_ahead.how_known)
-        case WhatIf(supposed, then) if lights_turn.goes_now(supposed, then, scene):
-            return _asked(lights_turn.not_yet)
         case WhatIf(supposed) if lights_ahead.concerns(unwrapped(supposed)[0]):
             return _asked(lights_supposed.supposed)
     return _of_fact(act.question)
@@ -133,7 +131,7 @@ def _of_fact(question: object) -> Explainer | None:
         case Which(thing=Feature(kind="light")):
             return _asked(lights_seen.seen_any)
         case Which(such=Has(attribute="colour", thing=Feature(kind="light"))):
-            return _asked(lights_seen.ours)
+            return _asked(lights_seen.whose)
         case HowMany(of) if light_in(of, *things(of)) is not None:
             return _asked(lights_seen.count)
         case When(Related("can-see", Ego(), Feature(kind="light"))):

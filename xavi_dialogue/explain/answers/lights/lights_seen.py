@@ -22,6 +22,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
+    Everyone,
     Exists,
     Feature,
     Happens,
@@ -48,6 +49,7 @@ from xavi_dialogue.explain.facts.episodes.light_events import HELD, PASSING
 from xavi_dialogue.explain.facts.traffic_lights import (
     colour_of,
     crossed,
+    green_around,
     light_in,
     meant,
     shown_at,
@@ -159,9 +161,15 @@ def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
 
 
 def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTold:
-    """Return that it is not known what a light showed, with what ours did if it is another's."""
-    own = None if light.of is None else shown_at(scene.ride, Feature("light"), time)
-    return LightTold("colour", past=past, time=time, whose=light.of, own=own)
+    """Return that it is not known what a light showed.
+
+    If it is another's, with what ours showed, and whether any other of the junction was green.
+    """
+    if light.of is None:
+        return LightTold("colour", past=past, time=time)
+    own = shown_at(scene.ride, Feature("light"), time)
+    around = green_around(scene.ride, time)
+    return LightTold("colour", past=past, time=time, whose=light.of, own=own, around=around)
 
 
 def seen_any(question: Which, scene: Asked) -> Answer:
@@ -193,9 +201,16 @@ def _held_by(event: Event, scene: Asked) -> Answer:
     return Happenings("when", looked, actor=Ego())
 
 
-def ours(question: Which, scene: Asked) -> Answer:
-    """Return what the light shows to us, as only that is known."""
+def ours(question: Whether, scene: Asked) -> Answer:
+    """Return what the light shows to us, for the question whether we may pass it."""
     return LightTold("colour", shown_at(scene.ride, Feature("light"), scene.now), time=scene.now)
+
+
+def whose(question: Which, scene: Asked) -> Answer:
+    """Return whether others have green, for the question who has: not which of them."""
+    light = Feature("light", of=Everyone())
+    time, past = moment(question.such, scene, light)
+    return _others(scene, light, time, past=past)
 
 
 def where(question: Any, scene: Asked) -> Answer:
@@ -281,7 +296,10 @@ def why(question: Why, scene: Asked) -> Answer:
     found = of_showing(of)
     light = found[0] if found is not None else Feature("light")
     time, past = moment(of, scene, light)
-    return LightTold("why", shown_at(scene.ride, light, time), past=past, time=time)
+    one = shown_at(scene.ride, light, time)
+    if one is None and light.of is not None:
+        return replace(_others(scene, light, time, past=past), asked="why")
+    return LightTold("why", one, past=past, time=time)
 
 
 def why_passed(question: Why, scene: Asked) -> Answer:

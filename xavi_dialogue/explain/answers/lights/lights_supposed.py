@@ -12,9 +12,15 @@ from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.domain.answers import Answer, NotRecorded
-from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, WhatIf, Whether, Why
-from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Is, Proposition, Vehicle
-from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
+from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Is, Now, Proposition, Vehicle
+from xavi_dialogue.domain.traffic_lights import (
+    LightColour,
+    LightTold,
+    Shown,
+    SupposedOfLight,
+    TurnOnRed,
+)
 from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, unwrapped
@@ -26,6 +32,7 @@ from xavi_dialogue.explain.causes.vehicles.involved import LIKELY
 from xavi_dialogue.explain.facts.episodes.light_events import HELD
 from xavi_dialogue.explain.facts.episodes.light_waits import held_at, holds
 from xavi_dialogue.explain.facts.traffic_lights import light_in, meant, shown_at
+from xavi_dialogue.explain.history.restraints import restraint_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned
 from xavi_dialogue.explain.history.traffic_lights import ahead, passings
 
@@ -58,7 +65,13 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
     if isinstance(of, Happens):
         tense = of.event.tense
     stays = isinstance(of, Happens) and of.event.action == "show" and _is_open(now, wanted)
-    past = tense in ("past", "perfect") and not stays
+    past = tense in ("past", "perfect") and not stays and not _is_of_now(of, question.then)
+    if not past and now is not None and now.colour == wanted == "green":
+        return _as_it_is(scene, now, question.then)
+    here = None if past else meant(scene.ride, light, scene.now)
+    left = [one.time for one in done if one.signal == here]
+    if left:
+        return LightTold("where", now, passed=left[-1], time=scene.now)
     trace, signal = _decision(scene, light, wanted, past=past)
     one = shown_at(scene.ride, light, trace.sim_time)
     if one is None or signal is None:
@@ -72,7 +85,7 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
     first = () if waits else _let_go_first(scene.ride, again)
     if past and not waits and not first and passing is not None:
         first = _crossing_then(scene, passing)
-    if not waits and not first and passed is None:
+    if past and not waits and not first and passed is None:
         first = _held_now(scene, signal, STATES[wanted])
     return SupposedOfLight(
         one,
@@ -91,6 +104,26 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
         faster=_asks_speed(question.then),
         amount=isinstance(question.then, HowMuch),
     )
+
+
+def _is_of_now(of: Proposition | None, then: Question | None) -> bool:
+    """Check whether "if it were green" is of now: so it says, or what is asked is of now."""
+    event = event_of(then.that) if isinstance(then, Whether) else then
+    present = isinstance(event, Event | Doing) and event.tense == "present"
+    return isinstance(getattr(of, "time", None), Now) or present
+
+
+def _as_it_is(scene: Asked, now: Shown, then: Question | None) -> SupposedOfLight:
+    """Return that a light is green already, and whom we let go first all the same."""
+    trace = scene.ride.latest
+    holder = restraint_at(scene.ride, scene.now)
+    held = () if holder is None or holder.by != "right-of-way" else (holder.vehicle,)
+    first = tuple(dict.fromkeys(v for v in (*held, *_let_go_first(scene.ride, trace)) if v))
+    holds = _would(then, waits=True) if first else None
+    return SupposedOfLight(
+        now, "green", trace.sim_time, planned(trace), planned(trace),
+        same=True, waits=False, past=False, holds=holds, first=first,
+    )  # fmt: skip
 
 
 def _asks_speed(then: Question | None) -> bool:
@@ -142,7 +175,7 @@ def _decision(
         before = [t for p in done[-1:] for t in known if t.sim_time < p.time]
         known = [t for t in before if _can_stop(t, done[-1].signal)] or before or known
     known = [t for t in known if t.sim_time <= scene.now]
-    free = [t for t in known if t.under_way is None] or known
+    free = [t for t in known if t.under_way is None and past] or known
     if not free:
         raise Unanswered(NotRecorded("not-recorded", since=scene.now))
     trace = free[-1]

@@ -6,12 +6,11 @@ from msgspec.structs import replace
 
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer
-from xavi_dialogue.domain.meaning import Doing, Question, WhatIf, Whether
+from xavi_dialogue.domain.meaning import Whether
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
-    Exists,
     Feature,
     Happens,
     Is,
@@ -79,31 +78,6 @@ def whether(question: Whether, scene: Asked) -> Answer:
     found = held(scene)
     assert found is not None
     return replace(found, holds=False)
-
-
-def goes_now(supposed: Proposition, then: Question | None, scene: Asked) -> bool:
-    """Check whether the supposition is that we go on now, while a light holds us."""
-    of, negated = unwrapped(supposed)
-    beside = unwrapped(then.that)[0] if isinstance(then, Whether) else None
-    if not isinstance(of, Happens) or negated or not isinstance(beside, Exists | None):
-        return False
-    event = of.event
-    now = event.tense == "present" or (scene.span is not None and scene.span.end >= scene.now)
-    open_then = then is None or isinstance(then, Whether | Doing)
-    ours = is_own(event.actor) and event.action in ONWARD and event.object is None
-    return ours and now and open_then and held(scene) is not None
-
-
-def not_yet(question: WhatIf, scene: Asked) -> Answer:
-    """Return that the light does not let us go.
-
-    Raises:
-        AssertionError: no light holds us; see `goes_now`.
-    """
-    del question
-    found = held(scene)
-    assert found is not None
-    return found
 
 
 def _is_going(event: Event) -> bool:

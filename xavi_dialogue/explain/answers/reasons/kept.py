@@ -1,6 +1,8 @@
-"""Kept: to whom we gave way, how that goes on, and how hard we braked."""
+"""Kept: to whom we gave way, how that goes on, how our slowing began, and how hard we braked."""
 
 from dataclasses import replace
+
+from msgspec import structs
 
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
@@ -14,6 +16,8 @@ from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.restraints import restraint_at
 
 HALTING = 1.0  # [m/s]
+PAUSE = 3.0  # [s] maximum time between slowings that belong together
+BEGUN = 2.0  # [s] of a slowing that are its beginning
 JUST = 0.5  # [s] before now that still are now
 STILL = ("stop", "stand")
 SLOWING = ("slow-down", "brake", "stop", "stand")
@@ -80,6 +84,22 @@ def going_on(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ..
     kinds = tuple(kind for row in rows for kind in row)
     now = (e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds and e.end is None)
     return max((e for e in now if e.action != "give-way"), key=lambda e: e.begin, default=deed)
+
+
+def beginning(scene: Asked, event: Event, deed: Episode) -> Episode:
+    """Return how our slowing began, where it is asked why we slowed so early.
+
+    Slowings with hardly a pause between them belong together.
+    """
+    asked = manner_of(event, "early", "first") is not None and event.tense == "past"
+    if not asked or deed.action not in ("slow-down", "brake"):
+        return deed
+    every = scene.world.episodes(Ego(), ("slow-down", "brake"))
+    for one in sorted(every, key=lambda e: -e.begin):
+        if one.end is not None and one.begin < deed.begin <= one.end + PAUSE:
+            deed = one
+    until = min(scene.now if deed.end is None else deed.end, deed.begin + BEGUN)
+    return structs.replace(deed, end=until)
 
 
 def coming_to(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ...]) -> Episode:

@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
 from xavi_dialogue.explain.answers.reasons.kept import (
+    beginning,
     coming_to,
     going_on,
     peak,
@@ -87,6 +88,7 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
         deed = _episode(scene, event, kinds, present=present)
         if deed is not None:
             deed = going_on(scene, deed, rows) if present else coming_to(scene, deed, rows)
+            deed = beginning(scene, event, deed)
             return _told(scene, event, deed, named, premise=rank == 0)
     if present and named != "speed-up":
         return _state(scene, event, named)

@@ -150,7 +150,7 @@ def _at_red(scene: Asked) -> bool:
     if trace is None or held_at(trace, EGO) is None:
         return False
     light = shown_at(scene.ride, Feature("light"), scene.now)
-    return light is not None and light.colour == "red"
+    return light is not None and light.colour in ("red", "red-amber")
 
 
 def _ahead_of(event: Event) -> int | None:

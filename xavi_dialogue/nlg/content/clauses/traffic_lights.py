@@ -47,11 +47,13 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
         "reply": reply,
         "who": who,
         "others": others,
+        "around": {None: "", True: "some", False: "none"}[answer.around],
         "own": None if answer.own is None else COLOURS[answer.own.colour],
     }
     if answer.shown is None and answer.passed is None:
         rule = "LIGHT_SEEN" if answer.asked == "seen" and reply else "LIGHT_NONE"
-        return Plan((message(rule, **none),))
+        why = (message("LIGHT_WHY"),) if answer.asked == "why" and who is not None else ()
+        return Plan((*why, message(rule, **none)))
     slots = {**shown_slots(answer.shown, answer, context), "reply": reply}
     rules = {"seen": "LIGHT_SEEN", "when": "LIGHT_WHEN", "how-long": "LIGHT_LONG",
              "where": "LIGHT_WHERE", "how-known": "LIGHT_KNOWN", "turn": "LIGHT_TURN"}  # fmt: skip
@@ -242,6 +244,8 @@ def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan
     saved = None if answer.passing is None else late - answer.passing
     gained = saved is not None and saved >= SAVED
     slots = {
+        "already": not answer.past and answer.shown.colour == answer.supposed == "green",
+        "light": Who(answer.shown.light),
         "same": answer.same,
         "waits": answer.waits,
         "first": _those(answer.first, context.now),

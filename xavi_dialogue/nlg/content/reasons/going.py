@@ -108,6 +108,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
         "past": answer.past,
         "right": answer.right,
         "through": answer.through,
+        "red": answer.red,
         "form": "what-if" if answer.red and form in ("crash", "safe") else form,
     }
     timed = answer.form in ("arrival", "quicker")

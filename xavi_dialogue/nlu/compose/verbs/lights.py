@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Feature,
     Happens,
     Has,
@@ -112,7 +113,7 @@ def faced_by(colour: str, thing: Thing, complements: Iterable[Complement]) -> Th
     who = next((as_thing(c.sem) for c in complements if c.key == "for"), None)
     if who is None:
         return thing
-    return Feature("light", of=None if isinstance(who, Ego | Passenger) else who)
+    return _faced(who)
 
 
 def ran(special: Special) -> Proposition:
@@ -141,8 +142,15 @@ def had_light(special: Special) -> Proposition | None:
     if colour is None:
         return None
     who = special.subject
-    light = Feature("light", of=None if isinstance(who, Ego | Passenger) else who)
-    return Has("colour", colour, light, time_of(special), tense_of(special))
+    return Has("colour", colour, _faced(who), time_of(special), tense_of(special))
+
+
+def _faced(who: Thing) -> Feature:
+    """Give the light that somebody faces: anybody's is that of all others."""
+    if isinstance(who, Ego | Passenger):
+        return Feature("light")
+    anybody = isinstance(who, Described) and who == Described(definite=False, other=who.other)
+    return Feature("light", of=Everyone() if anybody else who)
 
 
 def shining(of: Proposition | None) -> Event | None:

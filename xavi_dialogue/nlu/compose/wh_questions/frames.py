@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Exists,
     Happens,
+    Has,
     Is,
     Lane,
     Measured,
@@ -92,7 +93,9 @@ class Frames:
             return Both(away) if len(away) > 1 else next(iter(away), None)
         if clause.condition is None:
             return None
-        return self.supposed(clause.condition)
+        found = self.supposed(clause.condition)
+        now = "now" in clause.condition.focus | clause.focus
+        return at_once(found) if now and found is not None else found
 
     def supposed(self, condition: Clause) -> Proposition | None:
         """Read a supposition, of each of several things; that one is away is that it is not.
@@ -152,6 +155,18 @@ class Frames:
         if isinstance(other, Event):
             return Happens(other)
         return _with_object(of, as_thing(other))
+
+
+def at_once(of: Proposition) -> Proposition:
+    """Say that what is supposed would come now: "if he stopped now"."""
+    match of:
+        case Not(content=content):
+            return Not(at_once(content))
+        case Happens(event=event) if event.tense == "past":
+            return Happens(with_fields(event, tense="present"))
+        case Has(tense="past"):
+            return cast(Proposition, with_fields(of, tense="present"))
+    return of
 
 
 def _in_lane(instead: Proposition, of: Proposition) -> Proposition:

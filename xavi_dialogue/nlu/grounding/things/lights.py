@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Lane,
     Measured,
     Not,
     Pronoun,
@@ -169,7 +170,12 @@ def _light(thing: Thing | None) -> Feature | None:
 
 
 def _shown(thing: Thing, colour: object, g: Grounder) -> Thing:
-    """Return what is said to be red: a light, where one leads, or where no vehicle is red."""
+    """Return what is said to be red: a light, where one leads, or where no vehicle is red.
+
+    A lane or side is as red as its light.
+    """
+    if isinstance(thing, Lane):
+        return Feature("light", of=thing)
     if isinstance(thing, Pronoun) and thing.form in _OPEN and _leads(g, unsaid=True):
         return LIGHT
     if thing == Pronoun("it") and _in_view(g) and not _is_coloured(colour, g):
