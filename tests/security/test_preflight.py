@@ -39,7 +39,7 @@ def begun(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
     found: list[object] = []
     summary = drive.Summary("s1", 0)
 
-    def driven(_: object, __: object, manner: drive.DriveOptions, ___: object) -> drive.Summary:
+    def driven(_: object, manner: drive.DriveOptions, __: object) -> drive.Summary:
         found.append(manner.vehicle)
         return summary
 
