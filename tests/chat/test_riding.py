@@ -1,6 +1,7 @@
 """The options of `xavi chat` and `xavi ask`: what becomes of them before anything is started."""
 
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -39,6 +40,41 @@ def test_a_recording_is_begun_over_another_only_if_that_is_said(
     assert xavi("chat", "--record", str(file), "--force").exit_code == 0
     assert [(ride.record, ride.overwrite) for ride in rides] == [(file, False), (file, True)]
     assert xavi("chat", "--force", "--connect", "tcp/127.0.0.1:1").exit_code == 2
+
+
+@pytest.mark.parametrize("seconds", [None, 8.5])
+def test_the_car_is_told_how_long_to_drive(
+    monkeypatch: pytest.MonkeyPatch, rides: list[ChatOptions], seconds: float | None
+) -> None:
+    started: list[list[str]] = []
+
+    def start(car: list[str], *_: object) -> nullcontext[None]:
+        started.append(car)
+        return nullcontext()
+
+    monkeypatch.setattr(local_backend, "start_processes", start)
+    asked = () if seconds is None else ("--duration", str(seconds))
+    assert xavi("chat", *asked).exit_code == 0
+    [ride] = rides
+    with chat.start_backend(ride, 0.0, LocalOptions()):
+        pass
+    [car] = started
+    assert ("--duration" in car) == (seconds is not None)
+    assert car[-1] == str(seconds) or seconds is None
+
+
+@pytest.mark.parametrize(
+    ("resume", "until"),
+    [(None, "up to the end of the first lane change or turn"), (65.0, "up to 1:05")],
+)
+def test_it_is_said_what_is_waited_for_before_anything_starts(
+    rides: list[ChatOptions], resume: float | None, until: str
+) -> None:
+    assert xavi("chat", "--scenario", "s2").exit_code == 0
+    said = chat._announced(replace(rides[0], resume=resume))
+    assert "driving s2, seed 0" in said
+    assert until in said
+    assert said.endswith("answers follow")
 
 
 @pytest.mark.parametrize("overwrite", [False, True])

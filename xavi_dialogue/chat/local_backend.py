@@ -135,6 +135,7 @@ def start_local(
     speed: float,
     keeping: Retention | None = None,
     options: LocalOptions | None = None,
+    duration: float | None = None,
 ) -> Iterator[LocalBackend]:
     """Start the service, then the car; stop them in reverse order.
 
@@ -144,11 +145,13 @@ def start_local(
         speed: simulated seconds per second; 0 is as fast as possible.
         keeping: file in which the service stores turns, and for how long; None: not at all.
         options: recording and notes.
+        duration: [s] of the ride at the longest; None: the scenario's.
 
     Raises:
         ChildFailed: a process did not start.
     """
     ride = ["drive", "--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
+    ride += [] if duration is None else ["--duration", repr(duration)]
     with start_processes(ride, speed, keeping, options) as backend:
         yield backend
 

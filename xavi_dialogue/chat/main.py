@@ -17,6 +17,7 @@ from xavi_dialogue.chat.local_backend import (
     start_local,
     start_processes,
 )
+from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.storage.turn_log import Retention
@@ -35,6 +36,7 @@ class ChatOptions:
     resume: float | None = None  # [s] time to drive to before the first question
     record: Path | None = None  # file that the ride is recorded in
     overwrite: bool = False  # replace an existing file
+    duration: float | None = None  # [s] of the ride at the longest; None: the scenario's
     played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording; (): drive
 
     @property
@@ -68,7 +70,7 @@ def through_pipe(
         ChildFailed: a process did not start, or ended too often.
         ServiceLost: a question was not answered.
     """
-    note(f"playing {ride.name}" if ride.played else f"driving {ride.name}, seed {ride.seed}")
+    note(_announced(ride))
     options = LocalOptions(ride.record, ride.overwrite, warner(note), note)
     with start_backend(ride, speed, options) as backend:
         client = client_of(ride.passenger, backend.bus, Keys())
@@ -131,7 +133,7 @@ def start_backend(
     if ride.played:
         played = [*ride.played, "--speed", repr(speed)]
         return start_processes(played, speed, ride.keeping, options, seeks=True)
-    return start_local(ride.scenario, ride.seed, speed, ride.keeping, options)
+    return start_local(ride.scenario, ride.seed, speed, ride.keeping, options, ride.duration)
 
 
 def client_of(
@@ -140,6 +142,16 @@ def client_of(
     """Return a passenger on the bus."""
     token, share = passenger.token, passenger.share
     return Client(bus, keys, passenger.session, on_event, token=token, share=share)
+
+
+def _announced(ride: ChatOptions) -> str:
+    """Describe what happens before the first answer."""
+    if ride.played:
+        return f"playing {ride.name}"
+    until = "the end of the first lane change or turn, or of the ride"
+    if ride.resume is not None:
+        until = clock(ride.resume)
+    return f"driving {ride.name}, seed {ride.seed}, up to {until}; answers follow"
 
 
 def _begin(ride: ChatOptions, backend: LocalBackend, client: Client, speed: float) -> None:

@@ -15,6 +15,7 @@ from xavi_dialogue.cli.commands.common import (
     AsJson,
     Begin,
     Connect,
+    Duration,
     EgoFrom,
     EgoId,
     EgoTo,
@@ -32,6 +33,7 @@ from xavi_dialogue.cli.commands.common import (
 from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
 
 if TYPE_CHECKING:
+    from xavi_dialogue.chat.main import ChatOptions
     from xavi_dialogue.chat.remote_backend import RemoteCar
     from xavi_dialogue.dialogue.reply import Reply
     from xavi_dialogue.security.client_token import Passenger
@@ -58,6 +60,7 @@ def _chat(shell: Streams) -> Callable[..., None]:
     def chat(
         scenario: AnyScenario = None,
         seed: Seed = None,
+        duration: Duration = None,
         speed: SpeedFactor = None,
         session: SessionName = None,
         as_json: AsJson = False,
@@ -86,9 +89,14 @@ def _chat(shell: Streams) -> Callable[..., None]:
             there = there_of(connect, zenoh, vehicle)
             if there is None:
                 recording = None if record is None else _RecordingOptions(record, force)
-                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, recording)
+                ride = _ride(shell, scenario, seed, session, keeping, share)
+                ride = replace(ride, duration=duration)
+                if recording is not None:
+                    ride = replace(ride, record=recording.path, overwrite=recording.overwrite)
+                _drive(shell, ride, speed, as_json)
                 return
-            alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
+            alone(scenario=scenario, seed=seed, duration=duration, speed=speed)
+            alone(record=record, force=force or None)
             _ride_along(shell, there, session, as_json, keeping, share)
 
     return chat
@@ -108,19 +116,16 @@ class _RecordingOptions:
         self.path, self.overwrite = path, overwrite
 
 
-def _drive(
+def _ride(
     shell: Streams,
     scenario: str | None,
     seed: int | None,
-    speed: float | None,
     session: str | None,
-    as_json: bool,
     keeping: "Retention | None",
     share: bool,
-    recording: _RecordingOptions | None,
-) -> None:
-    """Talk in a car that this command starts."""
-    from xavi_dialogue.chat.main import ChatOptions, at_terminal, through_pipe
+) -> "ChatOptions":
+    """Make the options of the ride, and print warnings and how the conversation goes on."""
+    from xavi_dialogue.chat.main import ChatOptions
     from xavi_dialogue.storage import resume
 
     going = resume.fresh(datetime.now().astimezone(), token_hex(2))
@@ -132,9 +137,13 @@ def _drive(
     if session is None or keeping is None or going.before is not None:
         shell.note(going.note(at, keeping))
     passenger = passenger_of(going.session, share, kept=keeping is not None)
-    ride = ChatOptions(loaded.place, loaded.name, loaded.seed, passenger, keeping, at)
-    if recording is not None:
-        ride = replace(ride, record=recording.path, overwrite=recording.overwrite)
+    return ChatOptions(loaded.place, loaded.name, loaded.seed, passenger, keeping, at)
+
+
+def _drive(shell: Streams, ride: "ChatOptions", speed: float | None, as_json: bool) -> None:
+    """Talk in a car that this command starts."""
+    from xavi_dialogue.chat.main import at_terminal, through_pipe
+
     if _terminal(as_json):
         pace = 1.0 if speed is None else speed
         at_terminal(ride, typed_file(), shell.note, speed=pace)

@@ -112,6 +112,7 @@ Seed = Annotated[
     int | None,
     typer.Option(min=0, max=2**31 - 1, help="Seed of random numbers. Default: the scenario's."),
 ]
+Duration = Annotated[float | None, typer.Option(min=0.1, help="Longest duration [s].")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
 SessionName = Annotated[

@@ -12,6 +12,7 @@ from xavi_dialogue.cli.commands.common import (
     Begin,
     Connect,
     Control,
+    Duration,
     EgoFrom,
     EgoId,
     EgoTo,
@@ -63,9 +64,7 @@ def _drive(shell: Streams) -> Callable[..., None]:
     def drive(
         scenario: ScenarioName = "s1",
         seed: Seed = None,
-        duration: Annotated[
-            float | None, typer.Option(min=0.1, help="Longest duration [s].")
-        ] = None,
+        duration: Duration = None,
         speed: SpeedFactor = 0.0,
         connect: Connect = None,
         zenoh: ZenohFile = None,
