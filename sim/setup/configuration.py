@@ -13,7 +13,7 @@ from sim.roads.network import Network
 from sim.setup.checks import edges_of, near
 from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
-from sim.setup.options import Stated, listed, of_ride, stated
+from sim.setup.options import ALWAYS, Stated, listed, of_ride, stated
 from sim.setup.place_text import KEYS, begin_of, place_of, split_place
 from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
@@ -142,7 +142,7 @@ def _start(engine: Engine, file: Path, seed: int | None, step: float | None) -> 
     """Start SUMO with the options of the ride: its random numbers depend on all of them."""
     configuration = {"--configuration-file": str(file)}
     saved = engine.scratch / "options.xml"
-    engine.start(listed({**configuration, "--save-configuration": str(saved)}), file)
+    engine.start(listed({**configuration, **ALWAYS, "--save-configuration": str(saved)}), file)
     found = stated(saved)
     if found.mesoscopic:
         problem = "its vehicles have no places in SUMO's mesoscopic model"
