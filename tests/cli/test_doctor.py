@@ -32,6 +32,7 @@ from xavi_dialogue.cli.host_checks import CheckedSystem, Finding
 from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import Store
 
+HUB = Link.to_hub("tcp/a:1")
 NOW = datetime(2026, 6, 1, tzinfo=UTC)
 MACHINE = [
     *("python", "packages", "sumo", "netconvert", "kernels", "folders", "store", "space", "files"),
@@ -221,10 +222,12 @@ def test_a_port_taken_by_a_foreign_program() -> None:
                     return
 
         threading.Thread(target=hang_up, daemon=True).start()
-        found = port(f"tcp/127.0.0.1:{server.getsockname()[1]}")
+        endpoint = f"tcp/127.0.0.1:{server.getsockname()[1]}"
+        found, (joined,) = port(endpoint), on_the_bus(Link.to_hub(endpoint))
         server.shutdown(socket.SHUT_RDWR)
     assert found.verdict == "fault"
     assert "--listen" in found.advice
+    assert joined.advice == "another program listens there; end it, or name the endpoint of a hub"
 
 
 @pytest.fixture
@@ -271,7 +274,7 @@ def test_a_bus_on_which_something_is_amiss(hub: ZenohBus, monkeypatch: pytest.Mo
         hub.appear(Keys(name).of("alive/car"))
     reachable, there, old, garbled, silent = on_the_bus(Link.to_hub(hub.places[0]))
     assert reachable.verdict == "ok"
-    assert there.advice.startswith("nobody answers about a, b, c")
+    assert there.advice.startswith("nobody answers about a, b, c; start: xavi serve --mode client")
     assert "clock -100" in old.found
     assert old.found.endswith("rejected 3")
     assert all(word in old.advice for word in (__version__, "NTP", "log"))
@@ -280,8 +283,17 @@ def test_a_bus_on_which_something_is_amiss(hub: ZenohBus, monkeypatch: pytest.Mo
     assert {one.verdict for one in (there, old, garbled, silent)} == {"warning"}
 
 
-def test_nobody_is_on_the_bus() -> None:
-    assert roster([]).verdict == "warning"
+@pytest.mark.parametrize(
+    ("link", "advice"),
+    [
+        (HUB, "start one with: xavi drive --connect tcp/a:1"),
+        (Link.to_hub(None, Path("key.json5")), "xavi drive --zenoh FILE; or this certificate may"),
+    ],
+)
+def test_nobody_is_on_the_bus(link: Link, advice: str) -> None:
+    found = roster([], link)
+    assert found.verdict == "warning"
+    assert advice in found.advice
 
 
 def test_without_a_hub_that_is_the_last_finding(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -344,7 +356,7 @@ CARS = ("a", "b", "c", "d", "e", "f", "g", "h")
 
 
 def test_shards_that_share_a_fleet_are_well() -> None:
-    found = shards([Claim(1, "x", Shard(1, 2)), Claim(2, "y", Shard(2, 2))], CARS)
+    found = shards([Claim(1, "x", Shard(1, 2)), Claim(2, "y", Shard(2, 2))], CARS, HUB)
     assert found.verdict == "ok"
     sizes = re.fullmatch(r"1/2: (\d) cars; 2/2: (\d) cars", found.found)
     assert sizes is not None
@@ -352,16 +364,16 @@ def test_shards_that_share_a_fleet_are_well() -> None:
 
 
 def test_a_shard_without_a_service_is_found() -> None:
-    found = shards([Claim(1, "x", Shard(1, 2))], CARS)
+    found = shards([Claim(1, "x", Shard(1, 2))], CARS, HUB)
     assert found.verdict == "fault"
     assert "nobody for 2/2: " in found.found
-    assert found.advice == "start: xavi serve --shard 2/2"
-    assert shards([Claim(1, "x", Shard(1, 2))], ()).verdict == "fault"
+    assert found.advice == "start: xavi serve --shard 2/2 --mode client --connect tcp/a:1"
+    assert shards([Claim(1, "x", Shard(1, 2))], (), HUB).verdict == "fault"
 
 
 def test_a_shard_with_two_services_is_found() -> None:
     claims = [Claim(1, "x", Shard(1, 1)), Claim(2, "y", Shard(1, 1))]
-    found = shards(claims, CARS)
+    found = shards(claims, CARS, HUB)
     assert (found.verdict, found.found) == (
         "warning",
         "1/1: 8 cars; 1/1: 0 cars; 1/1 more than once",
@@ -370,6 +382,6 @@ def test_a_shard_with_two_services_is_found() -> None:
 
 def test_services_that_count_shards_differently_are_found() -> None:
     claims = [Claim(1, "x", Shard(1, 2)), Claim(2, "y", Shard(1, 1))]
-    found = shards(claims, CARS)
+    found = shards(claims, CARS, HUB)
     assert found.verdict == "warning"
     assert found.found.endswith("these overlap")

@@ -1,5 +1,6 @@
 """The connection of a process to the bus: role and endpoints."""
 
+import socket
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, Self, TypeAlias
@@ -8,6 +9,7 @@ from xavi_dialogue.bus.interface import DEFAULT_ENDPOINT
 
 Mode: TypeAlias = Literal["peer", "router", "client"]
 
+LISTENING = 0.5  # [s] to find out whether any program listens at an endpoint
 _MAX_MESSAGE = 4 * 1024 * 1024  # bytes; all messages are smaller
 _SAFE: dict[str, object] = {
     "scouting/multicast/enabled": False,
@@ -74,3 +76,14 @@ class Link:
     def at(self, endpoint: str) -> Self:
         """Return the same link, but to another hub."""
         return replace(self, connect=(endpoint,))
+
+
+def accepts(place: str) -> bool:
+    """Check whether any program accepts connections at an endpoint such as tcp/127.0.0.1:7447."""
+    address, _, _ = place.partition("/")[2].partition("?")
+    host, _, port = address.partition("#")[0].rpartition(":")
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), LISTENING).close()
+    except (OSError, ValueError):
+        return False
+    return True

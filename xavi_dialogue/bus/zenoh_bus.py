@@ -34,7 +34,7 @@ from xavi_dialogue.bus.interface import (
     TooLate,
     Watcher,
 )
-from xavi_dialogue.bus.link import Link, defaults
+from xavi_dialogue.bus.link import Link, accepts, defaults
 from xavi_dialogue.bus.timers import Timers
 
 JSON = "application/json"
@@ -249,7 +249,8 @@ def host(link: Link) -> ZenohBus:
         return ZenohBus(zenoh.open(config), tuple(_endpoints(config, "listen")))
     except zenoh.ZError as error:
         places = " and ".join(_endpoints(config, "listen")) or "no endpoint at all"
-        raise EndpointTaken(f"cannot listen at {places}: {_reason(error)}") from error
+        remedy = "name another with --listen; if it is in use, xavi doctor tells by whom"
+        raise EndpointTaken(f"cannot listen at {places}: {_reason(error)}; {remedy}") from error
 
 
 def join(link: Link, patience: float = 5.0) -> ZenohBus:
@@ -275,6 +276,8 @@ def _unreachable(config: zenoh.Config) -> str:
     if not places:
         return "there is no endpoint to connect to; name one with --connect"
     start = f"start one with: xavi serve --listen {places[0]}"
+    if any(map(accepts, places)):
+        start = "another program listens there; end it, or name the endpoint of a hub"
     if places[0].startswith(("tls/", "quic/")):
         given = json.loads(config.get_json(CERTIFICATE))
         start = "or it does not accept the certificate that it was shown"

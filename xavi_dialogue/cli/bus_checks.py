@@ -58,7 +58,7 @@ def port(endpoint: str) -> Finding:
             services = [key for key in alive(bus) if key.endswith("/alive/service")]
     except TransportError:
         found = f"another program listens at {endpoint}"
-        return Finding("port", "fault", found, "end it, or name another with --listen")
+        return Finding("port", "fault", found, "end it, or: xavi serve --listen ENDPOINT")
     if services:
         return Finding("port", "ok", f"a service of ours is at {endpoint}")
     found = f"a hub without a service that is known to serve a car is at {endpoint}"
@@ -105,9 +105,9 @@ def on_the_bus(link: Link) -> Iterator[Finding]:
         bus.watch(CLAIMED, seen.__setitem__)
         present = alive(bus)
         claims = claimed(key for key, there in dict(seen).items() if there)
-        yield roster(present)
+        yield roster(present, link)
         if claims:
-            yield shards(claims, _cars(present))
+            yield shards(claims, _cars(present), link)
         for key in present[:MAX_SEEN]:
             yield component(bus, key)
 
@@ -125,12 +125,13 @@ def claimed(keys: Iterable[str]) -> list[Claim]:
     return sorted(claim for claim in map(Claim.read, keys) if claim is not None)
 
 
-def shards(claims: Sequence[Claim], cars: Sequence[str]) -> Finding:
+def shards(claims: Sequence[Claim], cars: Sequence[str], link: Link) -> Finding:
     """Check whether there is one service for each car, and for each shard of the fleet.
 
     Args:
         claims: of the services, the earliest first; at least one.
         cars: that are there.
+        link: to the hub.
     """
     found = "; ".join(
         f"{one.shard}: {_many(sum(holder(claims, car) == one for car in cars), 'car')}"
@@ -142,7 +143,8 @@ def shards(claims: Sequence[Claim], cars: Sequence[str]) -> Finding:
         found += f"; nobody for {', '.join(gaps)}"
         found += f": {', '.join(alone[:NAMED])}" if alone else ""
         found += f" and {len(alone) - NAMED} more" if len(alone) > NAMED else ""
-        return Finding("shards", "fault", found, f"start: xavi serve --shard {gaps[0]}")
+        advice = f"start: xavi serve --shard {gaps[0]} --mode client {_to(link)}"
+        return Finding("shards", "fault", found, advice)
     if len({one.shard.of for one in claims}) > 1:
         advice = "let all services have one number of shards; of two for a car the earlier answers"
         return Finding("shards", "warning", f"{found}; these overlap", advice)
@@ -160,6 +162,12 @@ def _again(claim: Claim, claims: Iterable[Claim]) -> bool:
     return sum(one.shard == claim.shard for one in claims) > 1
 
 
+def _to(link: Link) -> str:
+    """Return the options with which another process joins the same hub."""
+    keyed = () if link.config is None else ("--zenoh FILE",)
+    return " ".join((*(f"--connect {place}" for place in link.connect), *keyed))
+
+
 def _many(number: int, word: str) -> str:
     return f"{number} {word}{'' if number == 1 else 's'}"
 
@@ -168,19 +176,27 @@ def _cars(present: Iterable[str]) -> list[str]:
     return sorted(str(vehicle_in(key)) for key in present if key.endswith("/alive/car"))
 
 
-def roster(present: Iterable[str]) -> Finding:
-    """Check which cars there are, and whether each has a service."""
+def roster(present: Iterable[str], link: Link) -> Finding:
+    """Check which cars there are, and whether each has a service.
+
+    Args:
+        present: keys of the components that are there.
+        link: to the hub.
+    """
     by_car: dict[str, list[str]] = {}
     for key in present:
         by_car.setdefault(str(vehicle_in(key)), []).append(key.rpartition("/")[2])
     found = "; ".join(f"{car}: {', '.join(parts)}" for car, parts in sorted(by_car.items()))
     cars = sorted(car for car, parts in by_car.items() if "car" in parts)
     if not cars:
-        advice = "start one with: xavi drive --connect ENDPOINT; or this certificate may not look"
+        advice = f"start one with: xavi drive {_to(link)}"
+        advice += "" if link.config is None else "; or this certificate may not look"
         return Finding("roster", "warning", f"no car is there; {found or 'nor anybody'}", advice)
     alone = [car for car in cars if "service" not in by_car[car]]
     if alone:
-        advice = f"nobody answers about {', '.join(alone)}; start: xavi serve"
+        advice = (
+            f"nobody answers about {', '.join(alone)}; start: xavi serve --mode client {_to(link)}"
+        )
         return Finding("roster", "warning", found, advice)
     return Finding("roster", "ok", found)
 
