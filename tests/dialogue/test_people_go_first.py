@@ -108,3 +108,33 @@ def test_those_with_a_green_light_go_first_while_ours_is_red(question: str, at: 
     told = Talk("junction-0", at).hear(question)
     assert "the traffic light" in told.lower()
     assert "red" in told
+
+
+@pytest.mark.parametrize(
+    "question",
+    ["is anybody walking across ahead", "Is anyone crossing?", "are there people crossing"],
+)
+def test_who_is_about_to_step_on_is_told_where_nobody_crosses_yet(question: str) -> None:
+    told = Talk("junction-0", 39.0).hear(question)
+    assert told.startswith("No, ")
+    assert "I am giving way to the pedestrian" in told
+    expected = Talk("city-0", 26.0).hear(question)
+    assert "to cross our way (90 %)" in expected
+
+
+def test_whoever_crosses_is_not_nobody() -> None:
+    told = Talk("city-0", 15.0).hear("is anyone crossing")
+    assert told == "Yes, the car ahead of us on the right (vehicle 24) is crossing our way."
+
+
+@pytest.mark.parametrize("whom", ["them", "those people", "people", "the pedestrian"])
+def test_stopping_for_people_is_what_we_did_for_people_last(whom: str) -> None:
+    told = Talk("junction-0", 46.0).hear(f"why did we have to stop for {whom}?")
+    assert told.startswith("I braked, because I had to let the pedestrian")
+    cycled = Talk("junction-0", 46.0).hear("why did you stop for the cyclist?")
+    assert cycled.startswith("I stopped at 0:29, because I had to let the green bicycle")
+
+
+def test_stepping_on_the_road_is_crossing() -> None:
+    told = Talk("junction-0", 42.0).hear("is somebody stepping on the road?")
+    assert told.startswith("Yes, the pedestrian")

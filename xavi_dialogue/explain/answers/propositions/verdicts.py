@@ -13,7 +13,6 @@ from xavi_dialogue.domain.answers import (
     NotRecorded,
     Priority,
     SupposedOfOther,
-    Verdict,
     Wavered,
 )
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
@@ -42,6 +41,7 @@ from xavi_dialogue.explain.answers.events.acting import activity
 from xavi_dialogue.explain.answers.expectations.foreseen import CROSSING, macros
 from xavi_dialogue.explain.answers.propositions.conditions import handed
 from xavi_dialogue.explain.answers.propositions.lasting import staying
+from xavi_dialogue.explain.answers.propositions.nobody import of_nobody
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
@@ -80,6 +80,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
     found = _seen_since(that, weigh(that, asked), asked)
     if found.holds is False and isinstance(that, Happens) and lacks_deeds(asked.ride, that.event):
         raise Unanswered(NotRecorded("no-deeds"))
+    that, found = of_nobody(that, found, asked)
     denied = question.tag and affirmed != question.that
     if denied and found.holds and found.answer is None:
         told = _seen_since(Not(that), found.negated(), asked)
@@ -225,7 +226,7 @@ def claim(act: Claim, asked: Asked) -> Answer:
         return found.answer
     if found.answer is not None and (found.holds is None or _own_type(act.that)):
         return found.answer
-    return _checked(found, act)
+    return found.verdict(act.that, claim=True, challenge=act.challenge)
 
 
 def _held_now(that: Proposition, asked: Asked) -> Answer | None:
@@ -333,10 +334,6 @@ def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:
             if first is not None and found.holds is False:
                 return refound(found, facts=(first,))
     return found
-
-
-def _checked(found: Finding, act: Claim) -> Verdict:
-    return found.verdict(act.that, claim=True, challenge=act.challenge)
 
 
 def _own_type(that: Proposition) -> bool:

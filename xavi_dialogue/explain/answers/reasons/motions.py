@@ -37,13 +37,14 @@ from xavi_dialogue.explain.answers.reasons.premises import (
     asked_moment,
     halted_at,
     is_before,
+    is_for,
     is_left,
     is_over,
     is_stopping,
     was_given_up,
 )
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
+from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, numbers_in
 from xavi_dialogue.explain.causes.driving.freed import driven_for
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
@@ -84,12 +85,14 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     named = asked or event.action
     rows = KINDS.get(named, (SLOWING,))
     present = not is_past(scene, event)
-    for rank, kinds in enumerate(rows):
-        deed = _episode(scene, event, kinds, present=present)
-        if deed is not None:
-            deed = going_on(scene, deed, rows) if present else coming_to(scene, deed, rows)
-            deed = beginning(scene, event, deed)
-            return _told(scene, event, deed, named, premise=rank == 0)
+    whom = frozenset(numbers_in(event.object))
+    for who in (whom, frozenset[int]()) if whom else (whom,):
+        for rank, kinds in enumerate(rows):
+            deed = _episode(scene, kinds, who, present=present)
+            if deed is not None:
+                deed = going_on(scene, deed, rows) if present else coming_to(scene, deed, rows)
+                deed = beginning(scene, event, deed)
+                return _told(scene, event, deed, named, premise=rank == 0)
     if present and named != "speed-up":
         return _state(scene, event, named)
     raise _denied(scene, event, rows)
@@ -251,13 +254,12 @@ def _held(scene: Asked) -> MotionReason | None:
 
 
 def _episode(
-    scene: Asked, event: Event, kinds: tuple[ActionName, ...], *, present: bool
+    scene: Asked, kinds: tuple[ActionName, ...], whom: frozenset[int], *, present: bool
 ) -> Episode | None:
-    """Return the episode of some kinds that is asked about, if possible with the same object."""
+    """Return the episode of some kinds that is asked about; of those for somebody, if any."""
     found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
-    about = vehicle_in(event.object)
-    if about is not None:
-        found = [e for e in found if vehicle_in(e.object) == about] or found
+    if whom:
+        found = [e for e in found if is_for(scene, e, whom)]
     if present and scene.past is None:
         found = [e for e in found if not is_left(scene, e)]
     return scene.pick(_preferring(found, kinds), lambda e: (e.begin, e.end))

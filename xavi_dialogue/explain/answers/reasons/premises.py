@@ -4,16 +4,28 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import vehicle_in
 from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.causes.vehicles import when
+from xavi_dialogue.explain.history.restraints import lasted
 from xavi_dialogue.explain.history.ride import chose
 
 SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
 STILL: tuple[ActionName, ...] = ("stop", "stand")
 CREEPING = 2.5  # [m/s] above which we have not stopped
+BEFORE = 1.0  # [s] before an episode, in which who kept us was the reason for it
 OVER = 4.0  # [s] since its end, from which what is asked about as present is denied
 MOVED = 0.5  # [s] since its end, from which a standstill is over
 BEGUN = 0.3  # [s] after a decision from which what it led to has begun
+
+
+def is_for(scene: Asked, deed: Episode, whom: frozenset[int]) -> bool:
+    """Check whether we did something for one of some road users, or they kept us then."""
+    if vehicle_in(deed.object) in whom:
+        return True
+    end = scene.now if deed.end is None else deed.end
+    kept = lasted(scene.ride, deed.begin - BEFORE, end)
+    return any(one.vehicle in whom for one in kept)
 
 
 def is_stopping(scene: Asked, deed: Episode, named: ActionName) -> bool:

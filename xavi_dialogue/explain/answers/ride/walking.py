@@ -38,7 +38,8 @@ def about_to_cross(asked: Asked, vehicle: int | None) -> bool:
     trace = asked.world.states.trace(asked.now)
     if trace is None or red_ahead(trace.road) or vehicle is None:
         return False
-    return in_view(asked, vehicle, ON_FOOT) and let_first(trace, vehicle) >= LIKELY
+    held = bool(held_by(asked.ride, vehicle, asked.now, asked.now))
+    return in_view(asked, vehicle, ON_FOOT) and (held or let_first(trace, vehicle) >= LIKELY)
 
 
 def in_view(asked: Asked, vehicle: int, kinds: Collection[str]) -> bool:
