@@ -14,7 +14,7 @@ from sim.setup import routes
 from sim.setup.routes import Departure
 from sim.setup.tables import TableError
 
-MANY = 40  # greatest number of names in a message if none is spelt alike
+MANY = 12  # greatest number of names in a message if none is spelt alike
 SUMOS_OWN = "DEFAULT_"  # prefix of the names of SUMO's predefined types
 
 
@@ -103,7 +103,10 @@ def one_of(names: Iterable[str]) -> str:
 def near(name: str, names: Iterable[str]) -> str:
     """Return a remedy that lists the names spelt like a name, or else the first ones."""
     listed = sorted(names)
-    return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed[:MANY])
+    alike = get_close_matches(name, listed, n=8, cutoff=0.4)
+    if alike or len(listed) <= MANY:
+        return one_of(alike or listed)
+    return f"choose one of {', '.join(listed[:MANY])}, ..."
 
 
 def _followers(network: Network) -> dict[str, set[str]]:

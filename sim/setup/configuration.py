@@ -1,5 +1,6 @@
 """A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is queried for its content."""
 
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from sim.quiet import errors_to, warnings_in
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.network import Network
 from sim.setup.checks import edges_of, near
-from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
+from sim.setup.departing import LONGEST, LOOKED, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
 from sim.setup.options import ALWAYS, Stated, listed, of_ride, stated
 from sim.setup.place_text import KEYS, begin_of, place_of, split_place
@@ -19,11 +20,14 @@ from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
 
 STEP = 0.1  # [s] the longest simulation step in which the ego is driven
+LOOKING = 1.0  # [s] the simulation step in which departures are looked for, to propose an ego
 SHORTEST = 5.0  # [s] between the departure and the end, below which the ride goes on beyond it
 SHOWN = 3  # greatest number of SUMO's warnings that are quoted
 CAR = "passenger"
 BEFORE_END = 5.0  # [m] from the goal to the end of the last edge
 OPTIONS = {"ego": "ego", "from": "ego-from", "to": "ego-to", "begin": "begin"}  # by key
+NOBODY = f"no car departs within {LOOKED:g} s"
+OTHERS = {"net": "roads", "routes": "routes", "additional": "additional elements"}  # by root
 UNFORESEEN = {"rail": "trains", "ship": "ships"}
 
 
@@ -53,7 +57,7 @@ def with_rider(place: str) -> str:
         return place
     departing = _who_departs(file)
     if not departing:
-        raise TableError(file, None, "no car departs", "give --ego-from EDGE and --ego-to EDGE")
+        raise TableError(file, None, NOBODY, "give --ego-from EDGE and --ego-to EDGE")
     return place_of(file, Departing(departing[0]))
 
 
@@ -77,13 +81,13 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
         given = " and ".join(f"--{OPTIONS[key]}" for key in KEYS if key in names)
         raise TableError(file, None, f"{given} alone does not say who the ego is", how)
     known = ", ".join(_who_departs(file))
-    first = f"the first cars that depart: {known}" if known else "no car departs by itself"
+    first = f"the first cars that depart: {known}" if known else NOBODY
     raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")
 
 
 def _who_departs(file: Path) -> list[str]:
     with _refused(file), Engine() as engine:
-        _start(engine, file, None, None)
+        _start(engine, file, None, LOOKING)
         with _hushed(engine):
             return first_departures(engine)
 
@@ -119,6 +123,10 @@ def _refused(file: Path) -> Iterator[None]:
     except NeverDeparts as error:
         raise TableError(file, None, error.problem, error.remedy) from error
     except SumoFailed as error:
+        kind = _other_kind(file)
+        if kind is not None:
+            problem = f"it is a file of {kind}, and no SUMO configuration"
+            raise TableError(file, None, problem, "give a .sumocfg that names it") from error
         problem = str(error).removeprefix(f"{file}: ")
         option = "No option with the name" in problem
         remedy = (
@@ -127,6 +135,15 @@ def _refused(file: Path) -> Iterator[None]:
             else "correct it so that sumo accepts it, too"
         )
         raise TableError(file, None, problem, remedy) from error
+
+
+def _other_kind(file: Path) -> str | None:
+    """Return what a file of SUMO's holds that is no configuration; None: it may be one."""
+    try:
+        _, root = next(ET.iterparse(file, events=["start"]))
+    except (OSError, ET.ParseError, StopIteration):
+        return None
+    return OTHERS.get(root.tag)
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +201,6 @@ class _Inspection:
         end = float(self.engine.call(self.engine.api.simulation.getEndTime))
         left = (end if end >= 0.0 else LONGEST) - clock(self.engine)
         over = left < SHORTEST
-        beyond = f"it ends at {end:g} s, but the ride goes on to its destination"
         return Inspected(
             network=path,
             ego=ego,
@@ -194,10 +210,9 @@ class _Inspection:
             duration=LONGEST if over else left,
             seed=self.started.seed,
             sublane=self.started.stated.sublane,
-            warnings=(
-                *self._of_sumo(),
-                *((beyond,) if over else ()),
-                *self._unmodelled(ego, network),
+            warnings=tuple(
+                f"{self.file.name}: {warning}"
+                for warning in (*self._of_sumo(), *self._unmodelled(ego, network, end, over=over))
             ),
         )
 
@@ -250,15 +265,17 @@ class _Inspection:
     def _of_sumo(self) -> Iterator[str]:
         """Yield SUMO's own warnings."""
         found = warnings_in(self.engine.log)
-        yield from (f"{self.file.name}: SUMO warns: {warning}" for warning in found[:SHOWN])
+        yield from (f"SUMO warns: {warning}" for warning in found[:SHOWN])
         if len(found) > SHOWN:
-            yield f"{self.file.name}: SUMO warns of {len(found) - SHOWN} things more"
+            yield f"SUMO warns of {len(found) - SHOWN} things more"
 
-    def _unmodelled(self, ego: str, network: Network) -> Iterator[str]:
+    def _unmodelled(self, ego: str, network: Network, end: float, *, over: bool) -> Iterator[str]:
         """Yield sentences on what in the configuration the planner does not take into account."""
+        if over:
+            yield f"it ends at {end:g} s, but the ride goes on to its destination"
         stated, step = self.started.stated.step, self.started.step
         if stated > step:
-            yield f"its steps of {stated:g} s are shortened to {step:g} s"
+            yield f"steps of {stated:g} s are shortened to {step:g} s"
         if self.engine.call(self.engine.api.vehicle.getStops, ego):
             yield f"the stops of {ego!r} are not made: the car drives to the end of its route"
         for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):

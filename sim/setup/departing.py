@@ -11,6 +11,7 @@ from sim.setup.source import EGO_ID, Added, Departing, Rider
 
 PATIENCE = 300.0  # [s] greatest wait for a gap in which an added car can depart
 LONGEST = 86400.0  # [s] end of a configuration that states none
+LOOKED = 3600.0  # [s] for which departures are looked for, to propose an ego
 LISTED = 8  # greatest number of vehicles in a message
 
 
@@ -57,9 +58,10 @@ def forget_stops(engine: Engine, name: str) -> None:
 
 
 def first_departures(engine: Engine) -> list[str]:
-    """Return the ids of the cars that depart first; this advances the simulation."""
+    """Return the ids of the cars that depart first, within LOOKED; this advances the simulation."""
     found: list[str] = []
-    while len(found) < LISTED and not _over(engine):
+    until = clock(engine) + LOOKED
+    while len(found) < LISTED and clock(engine) < until and not _over(engine):
         step(engine)
         api = engine.api.vehicle
         for name in engine.call(engine.api.simulation.getDepartedIDList):

@@ -9,7 +9,7 @@ import pytest
 from sim.roads.netconvert import NetconvertMissing
 from sim.roads.netfile import read_network
 from sim.scene import LightState
-from sim.setup import place_text
+from sim.setup import departing, place_text
 from sim.setup.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
 from sim.setup.source import Added, Departing, FromConfiguration
 from sim.setup.tables import TableError
@@ -117,7 +117,8 @@ def test_a_car_is_added(file: Path) -> None:
 def test_a_ride_that_begins_at_the_end_goes_on_beyond_it(file: Path, begin: int) -> None:
     scenario = load(f"{file}?from=top0A0&to=A0left0&begin={begin}")
     assert scenario.duration > 600.0
-    assert "it ends at 150 s, but the ride goes on to its destination" in scenario.warnings
+    told = "cross.sumocfg: it ends at 150 s, but the ride goes on to its destination"
+    assert told in scenario.warnings
     with Simulation(scenario) as world:
         assert world.scene().vehicles
         assert world.step(None).time > 0.0
@@ -195,6 +196,24 @@ def test_configurations_that_sumo_refuses(
     assert capfd.readouterr() == ("", "")
 
 
+def test_roads_are_not_taken_for_a_configuration(tmp_path: Path) -> None:
+    signalled(tmp_path)
+    with pytest.raises(ScenarioInvalid, match=r"is a file of roads, and no .*give a \.sumocfg"):
+        load(tmp_path / "cross.net.xml")
+
+
+def test_departures_are_looked_for_in_a_limited_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(departing, "LOOKED", 5.0)
+    late = '<routes><trip id="late" depart="90" from="left0A0" to="A0top0"/></routes>'
+    file = configured(tmp_path, late)
+    (tmp_path / "b.rou.xml").write_text("<routes/>")
+    with pytest.raises(ScenarioInvalid, match=r"no car departs within .*--ego-from EDGE"):
+        with_rider(str(file))
+    assert load(f"{file}?ego=late").ego == "late"
+
+
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(ScenarioInvalid, match=r"a\.sumocfg: there is no such file; correct the"):
         load(tmp_path / "a.sumocfg")
@@ -242,7 +261,8 @@ def test_lanes_that_are_not_as_the_net_says_are_named(tmp_path: Path) -> None:
     )
     (tmp_path / "types.add.xml").write_text(ADDITIONAL.replace("</additional>", sign))
     told = load(f"{file}?ego=late").warnings
-    assert "1 lanes ('A0right0_0') have another limit now; the car keeps to that of the net" in told
+    limit = "1 lanes ('A0right0_0') have another limit now; the car keeps to that of the net"
+    assert f"cross.sumocfg: {limit}" in told
 
 
 def test_a_folder_may_name_a_configuration(file: Path, tmp_path: Path) -> None:
