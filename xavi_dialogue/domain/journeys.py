@@ -28,8 +28,17 @@ class Course(Value, frozen=True):
     """Our way ahead: the way we take, the turns that are left, whether we stay on the road."""
 
     form: Literal[
-        "way", "route", "choice", "turns", "junctions", "roundabouts", "road", "nearly", "halt"
-    ]  # "choice": why we take the route
+        "way",
+        "route",
+        "choice",
+        "turns",
+        "junctions",
+        "roundabouts",
+        "road",
+        "nearly",
+        "halt",
+        "bound",
+    ]  # "choice": why we take the route; "bound": whether it leads to our destination
     steps: tuple[WayStep, ...]
     holds: bool | None = None  # the reply to a yes or no question
     left: float | None = None  # [m] to the destination

@@ -142,9 +142,9 @@ class Lane(Value, frozen=True):
 
 
 class Road(Value, frozen=True):
-    """A road: ours, the one we came from, a side road."""
+    """A road: ours, a side road, the one that is right or wrong for our destination."""
 
-    which: Literal["own", "side", "main", "left", "right", "any"] = "own"
+    which: Literal["own", "side", "main", "left", "right", "fitting", "wrong", "any"] = "own"
 
 
 class Feature(Value, frozen=True):

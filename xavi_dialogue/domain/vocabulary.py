@@ -151,6 +151,7 @@ State: TypeAlias = Literal[
     "free",  # a lane, a way
     "visible", "hidden", "stationary", "moving", "fast", "slow", "close", "far", "sure", "over",
     "late", "wrong", "right", "present", "lost", "stuck", "at-fault", "first", "last", "dirty",
+    "astray",  # off the way to one's destination
     "big", "roomy", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy",
     "upset",  # how a driver feels: angry, glad, afraid
 ]  # fmt: skip

@@ -41,3 +41,14 @@ def test_how_much_sooner_is_told_by_how_long_it_held_us() -> None:
 def test_nobody_costs_more_time_than_they_held_us(text: str) -> None:
     reply = told("junction-0", 34.0, text)
     assert int(reply.split(" about ")[1].split()[0]) < 10
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "would staying in the right lane have led to a collision with the blue car?",
+        "would staying in our lane have caused a crash with the blue car?",
+    ],
+)
+def test_what_a_deed_would_have_led_to_is_supposed(text: str) -> None:
+    assert told("s1-0", 12.0, text).startswith("I do not expect that: I put the risk of")

@@ -29,6 +29,7 @@ STANDING, BOUND = ("junction-0", 20.0), ("town-0", 30.0)
         (LATE, "you might want to keep more distance", "cannot keep more distance on request"),
         (LATE, "You could brake just to be careful.", "cannot brake on request"),
         (CROWDED, "you should be in the left lane", "end in a collision with the black car"),
+        (LATE, "I would feel better if you slowed down a little. Could you?", "cannot slow down"),
         (STANDING, "don't go yet!", "cannot wait on request. The traffic light"),
         (STANDING, "you should wait for those people", "cannot wait for"),
     ],

@@ -252,7 +252,7 @@ def _exit(thing: Exit) -> str:
 
 _ROADS = {"own": "our road", "side": "the side road", "main": "the main road",
           "left": "the road on the left", "right": "the road on the right",
-          "any": "a road"}  # fmt: skip
+          "fitting": "the right road", "wrong": "the wrong road", "any": "a road"}  # fmt: skip
 
 
 def _lane(thing: Lane, speaker: ReferringContext) -> str:

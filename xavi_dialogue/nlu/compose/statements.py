@@ -164,7 +164,8 @@ class Statements:
             if not told and not (tagged or self.asks):
                 return (Social("acknowledge"),)  # "my husband would have said they never look"
         of = _in_our_place(of, clause)
-        wish = None if tagged or self.asks else wished(of, clause, wishing=wishing)
+        asking = (tagged or self.asks) and not wishing  # "I wish you slowed down, could you?"
+        wish = None if asking else wished(of, clause, wishing=wishing)
         if wish is not None:
             return (wish,)
         if clause.there and clause.inner is not None and _is_needless(of):

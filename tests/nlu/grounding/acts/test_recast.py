@@ -71,6 +71,7 @@ HALTED = FakeWorld(CARS, (did("stop", 30.0, going_on=True),), now=40.0)
 NEAR = Is("close", Vehicle(1))
 IT, THAT = Pronoun("it"), Pronoun("that")
 SPEED = Measured("speed")
+OUR_WAY = Related("on", Ego(), Road("fitting"))
 NOBODY = Discourse()
 
 
@@ -129,9 +130,15 @@ SUCH = Described(plural=True, definite=False)
         (HowMany(SUCH), ABOUT_SPEED, None),
         (HowMany(replace(SUCH, colour="red")), ABOUT_LANES, None),
         # Which way, and how far.
-        (Whether(Related("on", Ego(), Road(which="right"))), NOBODY, Whither()),
-        (Whether(Related("on", Ego(), Road(which="right")), tag=True), NOBODY, None),
-        (Whether(Related("same-as", Ego(), Road())), NOBODY, Whither()),
+        (Whether(Is("lost", Ego())), NOBODY, Whether(Not(OUR_WAY, lexical=True))),
+        (Whether(Not(Is("astray", Ego()))), NOBODY, Whether(OUR_WAY)),
+        (
+            Whether(Happens(Event("head", object=Road("wrong"))), tag=True),
+            NOBODY,
+            Whether(Not(OUR_WAY, lexical=True), tag=True),
+        ),
+        (Whether(Is("lost", Vehicle(1))), NOBODY, None),
+        (Whether(Related("same-as", Ego(), Road())), NOBODY, Whether(OUR_WAY)),
         (
             HowDecide(Happens(Event("leave", tense="future"))),
             NOBODY,

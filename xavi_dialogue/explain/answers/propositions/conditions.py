@@ -336,6 +336,7 @@ STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
     "allowed": _allowed, "necessary": _judged, "worth-it": _judged, "better": _judged,
     "possible": _possible, "free": free,
     "visible": _seen, "hidden": _seen, "present": _seen, "lost": _seen,
+    "astray": _constant(None, "others-thoughts"),
     "stationary": still, "moving": still,
     "fast": fast, "slow": fast, "close": _close, "far": _close,
     "sure": _sure, "over": over, "late": late, "stuck": stuck,

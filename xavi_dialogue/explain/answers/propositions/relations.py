@@ -26,6 +26,7 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_pa
 from xavi_dialogue.explain.answers.reference.naming import is_us, looks, number, somebodies
 from xavi_dialogue.explain.answers.ride.cycling import likely_let
 from xavi_dialogue.explain.answers.ride.priority import owed, right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.ride.reaching import on_our_way
 from xavi_dialogue.explain.answers.sight.sight import others_mind
 from xavi_dialogue.explain.causes.vehicles.actions import EXITS
 from xavi_dialogue.explain.history.ride import planned
@@ -57,6 +58,8 @@ def related(of: Related, asked: Asked) -> Finding:
     if road in ("main", "side") and other is not None:
         first: Relation = "has-priority-over" if road == "main" else "must-yield-to"
         return _right_of_way(replace(of, relation=first, to=Ego()), asked, about)
+    if road == "fitting" and is_us(of.thing):
+        return on_our_way(asked)
     if of.relation == "waiting-for":
         return _waiting(of, asked)
     seer = number(of.thing)

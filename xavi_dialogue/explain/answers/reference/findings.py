@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from msgspec.structs import replace as changed
 
-from xavi_dialogue.domain.answers import Answer, Beliefs, Priority, Verdict
+from xavi_dialogue.domain.answers import Answer, Beliefs, Course, Priority, Verdict
 from xavi_dialogue.domain.facts import Belief, Fact, Gap, Measure
 from xavi_dialogue.domain.terms import Proposition
 
@@ -28,7 +28,7 @@ class Finding:
         probability = None if self.probability is None else 1.0 - self.probability
         holds = None if self.holds is None else not self.holds
         answer: Answer | None = self.answer if isinstance(self.answer, Beliefs) else None
-        if isinstance(self.answer, Priority) and self.answer.holds is not None:
+        if isinstance(self.answer, Course | Priority) and self.answer.holds is not None:
             answer = changed(self.answer, holds=not self.answer.holds)
         return replace(self, holds=holds, probability=probability, answer=answer)
 

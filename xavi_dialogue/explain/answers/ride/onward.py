@@ -270,12 +270,10 @@ def _is_turning(that: Proposition) -> bool:
 def _missed(that: Proposition, asked: Asked) -> Event | None:
     """Read "did we go past our exit?" as whether we have left, unless we did pass one."""
     match that:
-        case Happens(
-            event=Event(
-                action="pass" | "continue-next-exit" | "leave" as action, object=Exit()
-            ) as event
-        ) if is_us(event.actor) and event.tense in ("past", "perfect"):
-            if action == "continue-next-exit" or occasion(asked, event) is None:
+        case Happens(event=Event(action="pass" | "leave", object=Exit()) as event) if is_us(
+            event.actor
+        ) and event.tense in ("past", "perfect"):
+            if occasion(asked, event) is None:
                 return replace(event, action="leave", object=None, tense="present", time=Now())
     return None
 

@@ -1,17 +1,19 @@
-"""Reaching: when we come to a place on our way, or draw level with a vehicle.
+"""Reaching: whether our way leads to the destination, when we come to a place or pass a vehicle.
 
 For places, that is by our plan, or at our present speed where its simulations do not come there;
 for vehicles, at the present speeds.
 """
 
-from xavi_dialogue.domain.answers import Answer, Measures
+from xavi_dialogue.domain.answers import Answer, Measures, NotRecorded
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Where
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Junction, Vehicle
 from xavi_dialogue.explain.answers.expectations.plans import covers
 from xavi_dialogue.explain.answers.lights import lights_seen
-from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.ride.onward import course
 from xavi_dialogue.explain.answers.ride.places import junction
 from xavi_dialogue.explain.history.traffic_lights import ahead
 
@@ -80,3 +82,16 @@ def _at_place(asked: Asked, place: Junction | Feature, distance: float | None) -
 
 def _in(asked: Asked, seconds: float, to: Junction | Feature | Vehicle) -> Measures:
     return Measures((Measure("time-to-go", Ego(), asked.now, value=seconds, to=to),))
+
+
+def on_our_way(asked: Asked) -> Finding:
+    """Weigh that we are on the way to our destination: whether a way leads there from here.
+
+    Raises:
+        Unanswered: the record does not hold our way.
+    """
+    road = asked.world.road(asked.now)
+    if road is None:
+        raise Unanswered(NotRecorded("not-recorded", about="route"))
+    holds = asked.ride.arrived or road.distance is not None
+    return Finding(holds, answer=course(asked, "bound", (), holds=holds))

@@ -41,7 +41,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Owned, Tense, Who
 PLACES = frozenset(("ahead-of", "behind", "left-of", "right-of", "beside", "near", "oncoming-to",
                      "between", "in-the-way-of"))  # fmt: skip
 _WE = frozenset(("present", "safe", "stationary", "moving", "fast", "slow", "close", "lost",
-                 "stuck", "late", "first", "last", "far"))  # fmt: skip
+                 "astray", "stuck", "late", "first", "last", "far"))  # fmt: skip
 
 
 def clause_of(

@@ -21,6 +21,9 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
     del context
     if answer.arrived:
         return Plan((message("PLAN_NEXT", arrived=True),))
+    if answer.form == "bound":
+        way = {"lost": answer.left is None, "yes": answer.holds, "left": _left(answer)}
+        return Plan((message("COURSE_BOUND", **way),))
     if answer.form in COUNTED:
         return Plan((_turns(answer),))
     if answer.form == "route":

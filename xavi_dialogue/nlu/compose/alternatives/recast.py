@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.clauses.sem import SideOf, as_thing, is_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
@@ -142,6 +143,9 @@ def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
         ):  # "... you braked for?"
             whole = structs.replace(who, doing=None)
             return Whether(Happens(structs.replace(event, object=whole)), tag)
+        case Caused(cause=Happens(event=deed), effect=Happens(event=effect)):
+            happens = Happens(structs.replace(effect, modal="would"))
+            return WhatIf(as_of(Happens(deed), clause.tense), Whether(happens, tag))
         case Caused(cause=cause, effect=effect) if is_thing(cause):
             return Why(effect or That(), suspect=cast(Thing, cause))
     return None

@@ -71,8 +71,8 @@ _PLACES: dict[str, Thing] = {
     "right-exit": Exit(side="right"),
     "side-road": Road("side"),
     "main-road": Road("main"),
-    "here": Unknown("here"),
-    "there": Unknown("there"),
+    "wrong-way": Road("wrong"),
+    **{place: Unknown(place) for place in ("here", "there")},
 }
 
 

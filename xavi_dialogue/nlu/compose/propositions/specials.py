@@ -53,6 +53,7 @@ from xavi_dialogue.nlu.compose.states.states import STATES
 from xavi_dialogue.nlu.compose.verbs import lights
 from xavi_dialogue.nlu.compose.verbs.deeds import (
     admits,
+    astray,
     begun,
     broken,
     changed,
@@ -187,7 +188,8 @@ def _cause(special: Special) -> Proposition:
     if cause is not None and done is not None:
         return Caused(cause, done)
     effect: Proposition | None = Happens(sem) if isinstance(sem, Event) else None
-    return Caused(special.subject, effect)
+    deed = special.clause.subject if effect is not None and special.clause.modal else None
+    return Caused(Happens(deed) if isinstance(deed, Event) else special.subject, effect)
 
 
 def _cost(special: Special) -> Proposition:
@@ -308,10 +310,6 @@ def _lost(special: Special) -> Proposition:
     return Happens(with_fields(event_of(special, "disappear", None), actor=thing or Pronoun("it")))
 
 
-def _signal(special: Special) -> Proposition:
-    return Happens(event_of(special, "signal", None))
-
-
 _RULES: dict[str, Callable[[Special], Proposition]] = {
     "see-past": _see_past, "emerge": emerge, "lurk": lurk,
     "see": _see, "look": _see, "have": had, "make-do": make_do, "cause": _cause,
@@ -323,7 +321,8 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
-    "give-priority": _priority, "owe": _owed, "switch": _signal, "colour": lights.coloured,
+    "give-priority": _priority, "owe": _owed, "colour": lights.coloured, "stray": astray,
+    "switch": lambda s: Happens(event_of(s, "signal", None)),
     "stay-colour": lights.stays, "run-light": lights.ran, "make-light": lights.made,
     "become": lambda s: become(s, event_of), "sense": lambda s: sensed(s) or _see(s),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),

@@ -213,7 +213,7 @@ def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition
         return None
     match thing:
         case Feature(kind="way"):  # "is this the way?"
-            return Related("on", Ego(), Road("right"), time, tense)
+            return Related("on", Ego(), Road("fitting"), time, tense)
         case Road(which="side"):
             return Exists(thing, time, tense)
         case Road() | Lane():

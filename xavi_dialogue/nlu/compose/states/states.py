@@ -53,45 +53,14 @@ from xavi_dialogue.nlu.compose.verbs.events import when
 from xavi_dialogue.nlu.compose.verbs.trends import nearness
 
 _NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
-            "occupied": "free", "unsure": "sure", "absent": "present", "early": "late"}  # fmt: skip
+            "occupied": "free", "unsure": "sure", "absent": "present", "early": "late",
+            "on-route": "astray"}  # fmt: skip
 STATES = frozenset(
-    [
-        "safe",
-        "dangerous",
-        "comfortable",
-        "uncomfortable",
-        "allowed",
-        "necessary",
-        "possible",
-        "free",
-        "visible",
-        "hidden",
-        "stationary",
-        "moving",
-        "fast",
-        "slow",
-        "close",
-        "far",
-        "sure",
-        "over",
-        "late",
-        "wrong",
-        "right",
-        "present",
-        "lost",
-        "stuck",
-        "at-fault",
-        "dirty",
-        "big",
-        "normal",
-        "worth-it",
-        "better",
-        "faulty",
-        "awake",
-        "autonomous",
-        "busy",
-    ]
-)
+    ("safe", "dangerous", "comfortable", "uncomfortable", "allowed", "necessary", "possible",
+     "free", "visible", "hidden", "stationary", "moving", "fast", "slow", "close", "far", "sure",
+     "over", "late", "wrong", "right", "present", "lost", "astray", "stuck", "at-fault", "dirty",
+     "big", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy")
+)  # fmt: skip
 _COMPARED: dict[str, tuple[str, str]] = {
     "fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
     "far": ("distance", "more"), "big": ("size", "more"), "small": ("size", "less"),

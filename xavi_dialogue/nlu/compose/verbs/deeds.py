@@ -11,9 +11,13 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Not,
+    Passenger,
     Pronoun,
     Proposition,
     Quantity,
+    Related,
+    Road,
     Thing,
     Unknown,
     Wanted,
@@ -195,3 +199,12 @@ def make_do(special: Special) -> Proposition:
         thing = as_thing(special.object) or Ego()
         effect = Happens(Event("do", thing, Pronoun("that"), tense=tense_of(special)))
     return made(special, effect)
+
+
+def astray(special: Special) -> Proposition:
+    """Read "you missed our exit", "we lost our way": that we left our route."""
+    if not isinstance(special.subject, Ego | Passenger):
+        return Happens(event_of(special, "continue-next-exit", as_thing(special.object)))
+    return Not(
+        Related("on", Ego(), Road("fitting"), time_of(special), tense_of(special)), lexical=True
+    )

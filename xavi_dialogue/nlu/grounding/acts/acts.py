@@ -35,6 +35,7 @@ from xavi_dialogue.nlu.grounding.acts.ahead import in_lane, to_come
 from xavi_dialogue.nlu.grounding.acts.dangers import spoken_of
 from xavi_dialogue.nlu.grounding.acts.own_car import own_car
 from xavi_dialogue.nlu.grounding.acts.questions import question
+from xavi_dialogue.nlu.grounding.acts.trips import right_way
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
 from xavi_dialogue.nlu.grounding.completion.binding import bound
 from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
@@ -75,7 +76,8 @@ def act(spoken: Act, g: Grounder) -> Act:
         case Claim(that=Is(state="at-fault", thing=thing, event=None)):
             return Ask(question(Fault(suspect=thing), g))
         case Claim():
-            return replace(spoken, that=_claimed(bound(spoken, g).that, g))
+            claimed = _claimed(bound(spoken, g).that, g)
+            return replace(spoken, that=right_way(claimed) or claimed)
         case Request(event=event, negated=negated):
             return Request(_requested(event, g), negated)
         case Feel(about=about):

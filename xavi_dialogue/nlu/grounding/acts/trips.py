@@ -20,7 +20,6 @@ from xavi_dialogue.domain.meaning import (
     When,
     Whether,
     Which,
-    Whither,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -84,12 +83,10 @@ def of_trip(spoken: Question) -> Question | None:
 
 def _of_way(spoken: Question) -> Question | None:
     match spoken:
-        case (
-            Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
-            | Whether(that=Related(relation="same-as", thing=Ego(), to=Road()))
-            | HowSure(of=Related(thing=Ego(), to=Road(which="right")))
-        ):
-            return Whither()
+        case Whether(that=that) if (way := right_way(that)) is not None:
+            return replace(spoken, that=way)
+        case HowSure(of=of) if of is not None and (way := right_way(of)) is not None:
+            return Whether(way)
         case Whether(
             that=Compares(
                 left=Measured(attribute="delay", thing=Described() as who, tense="present") as loss,
@@ -141,6 +138,26 @@ def _of_way(spoken: Question) -> Question | None:
         case When(of=Compares(left=Measured(attribute="delay") as left)):
             return HowMuch(left)  # "what time did that cost us?"
     return _listed(spoken)
+
+
+def right_way(of: Proposition) -> Proposition | None:
+    """Read "are we lost", "did you take a wrong turn" as whether we are on the way we should be."""
+    right = Related("on", Ego(), Road("fitting"))
+    match of:
+        case Not(content=content) if (way := right_way(content)) is not None:
+            return way.content if isinstance(way, Not) else Not(way, lexical=True)
+        case (
+            Related(thing=Ego(), to=Road(which="fitting"))
+            | Related(relation="same-as", thing=Ego(), to=Road())
+        ):
+            return right
+        case (
+            Is(state="lost" | "astray", thing=Ego() | Passenger())
+            | Related(thing=Ego(), to=Road(which="wrong"))
+            | Happens(event=Event(actor=Ego(), object=Road(which="wrong")))
+        ):
+            return Not(right, lexical=True)
+    return None
 
 
 def _let_anybody(of: Event) -> bool:
