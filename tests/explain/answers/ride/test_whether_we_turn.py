@@ -108,7 +108,6 @@ def test_the_first_exit_of_the_ring_is_ours_where_we_take_it() -> None:
 @pytest.mark.parametrize(
     ("event", "route", "found"),
     [
-        (do("continue-next-exit", Exit(), tense="past"), (RING,), way((RING, 1), holds=False)),
         (do("pass", Exit(), tense="perfect"), (RING,), way((RING, 1), holds=False)),
         (do("pass", Exit(), tense="past"), (RIGHT,), way((RIGHT, 1), holds=False)),
         (do("pass", Exit(), tense="past"), (OVER,), way(form="road", holds=False)),
@@ -124,10 +123,7 @@ def test_an_exit_that_we_did_not_pass_is_not_missed(event: Event, route: Any, fo
 
 def test_an_exit_that_we_did_pass_is_an_event() -> None:
     passed = do("pass", Exit(), tense="past")
-    went = (did("pass", 12.0, 14.0), did("continue-next-exit", 12.0, 14.0))
-    assert ours(passed, RING, episodes=went) == PAST
-    on = do("continue-next-exit", Exit(), tense="past")
-    assert ours(on, RING, episodes=went) == way((RING, 1), holds=False)
+    assert ours(passed, RING, episodes=(did("pass", 12.0, 14.0),)) == PAST
 
 
 # Whether we turn --------------------------------------------------------------------------------

@@ -66,7 +66,8 @@ def event_lasting(event: Event, asked: Asked) -> Answer:
     ahead = is_ahead(asked, event.time, event.tense) or (
         event.modal == "must" and event.tense == "present"
     )
-    if ahead and event.action in HALTS and is_us(event.actor) and halted(asked):
+    waits = event.action in HALTS if is_us(event.actor) else event.action == "cross"
+    if ahead and waits and halted(asked):  # until those who cross are out of our way
         return Measures((remaining_wait(asked),))
     found = occasion(asked, event)
     if found is None and event.action in HALTS:

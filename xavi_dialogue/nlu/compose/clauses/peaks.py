@@ -115,10 +115,12 @@ def _done_most(verb: str, clause: Clause) -> str:
     return _DONE.get(verb, "") if isinstance(clause.subject, Ego) else ""
 
 
-def done_most(event: Event, relative: Node | None) -> str:
-    """Name what the deed of a relative clause makes a peak of: "we had to brake the most"."""
+def done_most(event: Event, relative: Node | None, extreme: str | None) -> str:
+    """Name the peak of "where we had to brake the most", "the longest bit we stood still"."""
+    if not isinstance(event.actor, Ego):
+        return ""
     most = relative is not None and any(leaf.category == "SUPER" for leaf in leaves_of(relative))
-    return _DEEDS.get(event.action, "") if most and isinstance(event.actor, Ego) else ""
+    return _DEEDS.get(event.action, "") if most else deed_peak(event.action, extreme)
 
 
 #: What a deed of ours is the most of: "the hardest braking", "the longest stop".

@@ -328,18 +328,18 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     if quality and (head.key in ("peak", "event") or "call" in head.words):
         return Noun("peak", word=" ".join(head.words), quality=quality)
     deed = traits.clause.event if isinstance(traits.clause, Happens) else None
-    if head.key in ("time", "moment") and deed and (most := done_most(deed, traits.gerund)):
+    most = "" if deed is None else done_most(deed, traits.gerund, traits.extreme)
+    if head.key in ("time", "moment", "peak") and most:
         return peaks_of(head, traits, most)
     about = next((s for k, s in traits.about), None)
     extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
     owner = traits.owner
     if owner is None and head.key == "fault" and traits.kind is not None:
         owner = structs.replace(described(traits.kind, traits), doing=None, such=None)
-    rank = (traits.ordinal or 1) if head.key == "time" else 1
     return Noun(
         "event" if head.key == "peak" else head.key, traits.of, owner, about, plural, traits.other,
         traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),
-        traits.clause, number=rank,
+        traits.clause, number=(traits.ordinal or 1) if head.key == "time" else 1,
     )  # fmt: skip
 
 

@@ -53,7 +53,6 @@ from xavi_dialogue.nlu.compose.states.states import STATES
 from xavi_dialogue.nlu.compose.verbs import lights
 from xavi_dialogue.nlu.compose.verbs.deeds import (
     admits,
-    astray,
     begun,
     broken,
     changed,
@@ -66,6 +65,7 @@ from xavi_dialogue.nlu.compose.verbs.deeds import (
     measured,
     missed,
     mistaken,
+    neared,
     tense_of,
     time_of,
 )
@@ -321,8 +321,8 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
-    "give-priority": _priority, "owe": _owed, "colour": lights.coloured, "stray": astray,
-    "switch": lambda s: Happens(event_of(s, "signal", None)),
+    "give-priority": _priority, "owe": _owed, "near": neared,
+    "switch": lambda s: Happens(event_of(s, "signal", None)), "colour": lights.coloured,
     "stay-colour": lights.stays, "run-light": lights.ran, "make-light": lights.made,
     "become": lambda s: become(s, event_of), "sense": lambda s: sensed(s) or _see(s),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),

@@ -11,13 +11,10 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
-    Not,
     Passenger,
     Pronoun,
     Proposition,
     Quantity,
-    Related,
-    Road,
     Thing,
     Unknown,
     Wanted,
@@ -201,10 +198,10 @@ def make_do(special: Special) -> Proposition:
     return made(special, effect)
 
 
-def astray(special: Special) -> Proposition:
-    """Read "you missed our exit", "we lost our way": that we left our route."""
-    if not isinstance(special.subject, Ego | Passenger):
-        return Happens(event_of(special, "continue-next-exit", as_thing(special.object)))
-    return Not(
-        Related("on", Ego(), Road("fitting"), time_of(special), tense_of(special)), lexical=True
-    )
+def neared(special: Special) -> Proposition:
+    """Read "did we come too close to them" as how close that was; else as coming closer."""
+    whom, tense = as_thing(special.match.phrases.get("bearing-beside")), tense_of(special)
+    other = whom if isinstance(special.subject, Ego | Passenger) else special.subject
+    if other is None or tense not in ("past", "perfect"):
+        return Happens(event_of(special, "approach", whom))
+    return Is("close", other, too="too" in special.clause.focus, time=time_of(special), tense=tense)

@@ -1,6 +1,6 @@
 """Taking: the deed that is meant where its object makes it another: an exit, a turn, a gap."""
 
-from xavi_dialogue.domain.terms import Event, Feature, Junction, Thing
+from xavi_dialogue.domain.terms import Event, Exit, Feature, Junction, Thing
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, SideOf, as_thing
 from xavi_dialogue.nlu.compose.clauses.senses import Match
 
@@ -23,6 +23,8 @@ def meant(
         return taken(match.object, side)
     if action in _INTO and is_gap(match.object):
         return "go", side, None  # "take that opening"
+    if action == "continue-next-exit" and isinstance(match.object, Event):
+        return action, None, Exit()  # "miss the turn"
     if action == "take-exit":
         return "leave", side, thing
     if action == "stop" and isinstance(match.object, Event):

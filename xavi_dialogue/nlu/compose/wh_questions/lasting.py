@@ -32,7 +32,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
-from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by, wanted_pronoun
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.times import at_place, is_come_to
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
@@ -293,7 +293,10 @@ def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:
     if isinstance(content, Happens):
         if content.event.action == "arrive":
             return HowMuch(Measured("time-to-go"))
-        return HowLong(content.event)
+        doer = as_thing(value.match.second) or as_thing(clause.subject)
+        ours = isinstance(content.event.actor, Ego) and not wanted_pronoun(doer)
+        deed = with_fields(content.event, actor=doer) if ours and doer else content.event
+        return HowLong(with_fields(deed, tense="future") if clause.tense == "future" else deed)
     if isinstance(clause.subject, Event):
         return HowLong(clause.subject)
     if isinstance(clause.subject, Noun) and clause.subject.key == "ride":

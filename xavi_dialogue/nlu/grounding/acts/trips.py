@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exists,
+    Exit,
     Feature,
     Happens,
     Has,
@@ -155,6 +156,14 @@ def right_way(of: Proposition) -> Proposition | None:
             Is(state="lost" | "astray", thing=Ego() | Passenger())
             | Related(thing=Ego(), to=Road(which="wrong"))
             | Happens(event=Event(actor=Ego(), object=Road(which="wrong")))
+            | Happens(
+                event=Event(
+                    action="continue-next-exit",
+                    actor=Ego(),
+                    object=Exit() | Junction(form="junction"),
+                    tense="past" | "perfect" | "future",
+                )
+            )
         ):
             return Not(right, lexical=True)
     return None

@@ -1,0 +1,34 @@
+"""People whom we let go: how near they came, any of them, how long they still take."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+WAITING, OVER = ("city-0", 34.0), ("city-0", 46.0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "how much longer will they take to cross?",
+        "how long do these people need to get across?",
+        "how long will it take them to cross?",
+    ],
+)
+def test_how_long_people_take_is_how_long_we_still_wait(text: str) -> None:
+    told = Talk(*WAITING).hear("who are we waiting for?", text)
+    assert "drive on" in told
+
+
+def test_any_of_them_is_one_of_those_spoken_of() -> None:
+    talk = Talk(*OVER)
+    told = talk.hear("which people did you give way to?", "did we come too close to any of them?")
+    assert told.startswith("No: the pedestrian")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["what was the longest time we stood still?", "how long was the longest bit we had to wait?"],
+)
+def test_the_longest_wait_is_told(text: str) -> None:
+    assert Talk(*OVER).hear(text).startswith("The longest wait was at 0:33: I stopped")
