@@ -32,3 +32,8 @@ def test_any_of_them_is_one_of_those_spoken_of() -> None:
 )
 def test_the_longest_wait_is_told(text: str) -> None:
     assert Talk(*OVER).hear(text).startswith("The longest wait was at 0:33: I stopped")
+
+
+def test_a_tag_that_affirms_what_we_know_gets_yes() -> None:
+    told = Talk(*WAITING).hear("you do know those people are there, don't you?")
+    assert told.startswith("Yes")

@@ -52,3 +52,8 @@ def test_nobody_costs_more_time_than_they_held_us(text: str) -> None:
 )
 def test_what_a_deed_would_have_led_to_is_supposed(text: str) -> None:
     assert told("s1-0", 12.0, text).startswith("I do not expect that: I put the risk of")
+
+
+def test_if_he_stays_ahead_we_arrive_as_planned() -> None:
+    text = "when do we get there if the bicycle stays in front of us the whole way?"
+    assert told("junction-0", 60.0, text).startswith("We should be there in about")

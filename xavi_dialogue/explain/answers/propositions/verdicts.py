@@ -71,8 +71,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
     ours = whether_ours(question, asked)
     if ours is not None:
         return ours
-    affirmed = _affirmed(question.that)
-    that = _as_chance(_as_state(_as_it_was(affirmed, asked)))
+    that = _as_chance(_as_state(_as_it_was(_affirmed(question.that), asked)))
     if (behind := _stays_behind(that, asked)) is not None:
         return staying(asked, behind)
     if (why := _disputed(that, asked)) is not None:
@@ -81,8 +80,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
     if found.holds is False and isinstance(that, Happens) and lacks_deeds(asked.ride, that.event):
         raise Unanswered(NotRecorded("no-deeds"))
     that, found = of_nobody(that, found, asked)
-    denied = question.tag and affirmed != question.that
-    if denied and found.holds and found.answer is None:
+    if question.tag and _is_denied(question.that) and found.holds and found.answer is None:
         told = _seen_since(Not(that), found.negated(), asked)
         return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open
     if found.holds is False and (kept := _kept_behind(that, found, asked)) is not None:
@@ -203,6 +201,12 @@ def _affirmed(that: Proposition) -> Proposition:
     ):
         that = that.content
     return that
+
+
+def _is_denied(that: Proposition) -> bool:
+    """Check whether a question denies the fact, or that we think so."""
+    of = that.content if isinstance(that, Believed) else that
+    return isinstance(of, Not) and not of.lexical
 
 
 def claim(act: Claim, asked: Asked) -> Answer:

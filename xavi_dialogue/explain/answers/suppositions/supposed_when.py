@@ -6,12 +6,13 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether, Why
+from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, Question, When, Whether, Why
 from xavi_dialogue.domain.terms import (
     At,
     Ego,
     Event,
     Happens,
+    Measured,
     Next,
     Now,
     Proposition,
@@ -280,3 +281,13 @@ def _asks_now(question: Question | None) -> bool:
 def _is_now(time: Time, scene: Asked) -> bool:
     reached = isinstance(time, At) and time.at >= scene.now - ROUNDING
     return reached or isinstance(time, Now | Next)
+
+
+def asks_when(then: Question | None) -> bool:
+    """Check whether the question is when we arrive, and not whether that is later."""
+    match then:
+        case When(of=Happens(event=Event(action="arrive", actor=Ego()))):
+            return True
+        case HowMuch(of=Measured(attribute="time-to-go" | "arrival-time")):
+            return True
+    return False

@@ -30,6 +30,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     manner_of,
     unwrapped,
 )
+from xavi_dialogue.explain.answers.ride.places import time_to_go
 from xavi_dialogue.explain.answers.suppositions import reacting
 from xavi_dialogue.explain.answers.suppositions.anybody import of_anybody
 from xavi_dialogue.explain.answers.suppositions.forcing import forced
@@ -48,6 +49,7 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
     with_chance,
 )
 from xavi_dialogue.explain.answers.suppositions.supposed_when import (
+    asks_when,
     driven,
     imagined,
     is_new,
@@ -101,6 +103,8 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     of, negated = _mistaken(scene, of, negated=negated)
     event, vehicle = event_of(of), _whom(scene, of)
     if stays_ahead(event) and not negated:
+        if asks_when(question.then) and event.tense in ("present", "future"):
+            return Measures((time_to_go(scene, scene.now),))  # as planned: we follow
         of, negated = kept_ahead(event, form)
     if _asks_of_other(question.then):
         if negated and (found := freed(question.then, vehicle, scene)) is not None:
