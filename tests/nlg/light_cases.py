@@ -157,4 +157,5 @@ CASES: tuple[Answer, ...] = (
     SupposedOfLight(GREEN, "green", NOW, ("continue",), ("continue",), True, False, past=False,
                     holds=True, first=(1,)),
     Unslowed(Episode(E, "wait", NOW, speed_from=0.0), None, red=True, past=False),
+    Unslowed(Episode(E, "wait", NOW, speed_from=0.0), QUEUE, red=True, past=False),
 )  # fmt: skip

@@ -19,7 +19,16 @@ from tests.explain.answers.stated import (
     they,
 )
 from xavi_dialogue.domain.answers import DidNotHappen, Happenings, Measures
-from xavi_dialogue.domain.terms import At, Between, Event, Vehicle, WholeRide
+from xavi_dialogue.domain.meaning import HowLong
+from xavi_dialogue.domain.terms import (
+    At,
+    Between,
+    Event,
+    Feature,
+    Related,
+    Vehicle,
+    WholeRide,
+)
 from xavi_dialogue.explain.answers.measuring.durations import (
     event_lasting,
     halted,
@@ -28,6 +37,7 @@ from xavi_dialogue.explain.answers.measuring.durations import (
     stands,
     waited,
 )
+from xavi_dialogue.explain.answers.propositions.lasting import how_long
 from xavi_dialogue.explain.answers.reference.moments import Window
 
 ONE, TWO = Vehicle(1), Vehicle(2)
@@ -163,13 +173,20 @@ def test_halts_with_a_little_creeping_between_are_one() -> None:
     assert lasted(Event("stand"), episodes=mixed).measures[0].value == 3.0  # slowing is no halt
 
 
-def test_a_halt_for_somebody_or_one_that_goes_on_stands_alone() -> None:
+def test_a_queue_that_goes_on_is_told_as_a_whole_with_what_we_stood() -> None:
+    going = (did("stop", 12.0, 15.0), did("stop", 17.0))
+    found = lasted(Event("stop"), episodes=going)
+    assert [(e.begin, e.end) for e in found.episodes] == [(12.0, None)]
+    assert [m.value for m in found.measures if m.extreme == "total"] == [6.0]
+    queue = HowLong(Related("on", US, Feature("queue"), tense="perfect"))
+    asked = scene(episodes=going, looks=LOOKS, motions=MOVING)
+    assert result(how_long, queue, asked).measures == found.measures
+
+
+def test_a_halt_for_somebody_stands_alone() -> None:
     row = (did("wait", 2.0, 5.0, object=ONE), did("wait", 7.0, 10.0, object=TWO))
     found = lasted(Event("wait", object=TWO), episodes=row)
     assert (found.episodes, found.measures[0].value) == (row[1:], 3.0)
-    going = (did("stop", 12.0, 15.0), did("stop", 17.0))
-    found = lasted(Event("stop"), episodes=going)
-    assert (found.episodes, found.measures[0].value) == (going[1:], 3.0)
     theirs = (they(1, "stop", 2.0, 5.0), they(1, "stop", 7.0, 10.0))
     assert lasted(Event("stop", ONE), episodes=theirs).episodes == theirs[1:]
     slowed = (did("brake", 2.0, 5.0), did("brake", 7.0, 10.0))

@@ -43,6 +43,8 @@ LITTLE = 1.0  # [s] cost below which somebody costs us next to nothing
 SOON = 3.0  # [s] maximum time to a stop that we are about to make
 LATELY = 15.0  # [s] after a hold-up in which a question may be about it
 CREEPING = 4.0  # [s] maximum time between two halts at one place
+QUEUING = 15.0  # [s] the same where we drive slowly
+SLOW = 4.0  # [m/s] speed up to which we move up in a queue
 PAUSE = 3.0  # [s] maximum time between two slowings that count as one
 TRAILED = 80.0  # [m] maximum distance of a vehicle ahead that slows us down
 ASIDE = 2.5  # [m] maximum offset sideways of a vehicle in our lane
@@ -75,11 +77,15 @@ def event_lasting(event: Event, asked: Asked) -> Answer:
     if found is None:
         raise did_not_happen(asked, event)
     halts = _halts(asked, event, found)
-    if len(halts) > 1 and halts[-1].end is not None:
-        total = sum(duration(asked, halt) for halt in halts)
-        return Measures((Measure("waiting-time", Ego(), halts[0].begin, value=round(total, 2),
-                                 until=asked.now, extreme="total"),))  # fmt: skip
-    return lasting(asked, found, event)
+    if len(halts) < 2:
+        return lasting(asked, found, event)
+    stood = sum(duration(asked, halt) for halt in halts)
+    total = Measure("waiting-time", Ego(), halts[0].begin, value=round(stood, 2),
+                    until=asked.now, extreme="total")  # fmt: skip
+    if halts[-1].end is not None:
+        return Measures((total,))
+    queue = lasting(asked, replace(found, begin=halts[0].begin, end=None), event)
+    return replace(queue, measures=(*queue.measures, total))
 
 
 def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
@@ -93,11 +99,19 @@ def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
     rows: list[list[Episode]] = []
     for halt in stood:
         last = rows[-1][-1] if rows else None
-        if last is None or halt.begin - (last.end or asked.now) > CREEPING:
+        if last is None or not _creeps(asked, last.end or asked.now, halt.begin):
             rows.append([])
         rows[-1].append(halt)
     about = Window(found.begin, found.end or asked.now)
     return next((row for row in rows if any(overlaps(asked, e, about) for e in row)), [])
+
+
+def _creeps(asked: Asked, begin: float, end: float) -> bool:
+    """Check whether we only moved up between two halts."""
+    if end - begin <= CREEPING:
+        return True
+    fastest = asked.world.extreme("speed", Ego(), "highest", begin, end).value
+    return end - begin <= QUEUING and fastest is not None and fastest <= SLOW
 
 
 def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happenings:

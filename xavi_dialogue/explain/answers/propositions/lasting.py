@@ -10,6 +10,7 @@ from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
     Event,
+    Feature,
     Happens,
     Is,
     Not,
@@ -48,6 +49,8 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
         Unanswered: it did not happen.
     """
     of = question.of
+    if isinstance(of, Related) and is_us(of.thing) and of.to == Feature("queue"):
+        of = Event("wait", time=of.time, tense=of.tense)
     if isinstance(of, Related) and of.relation in ("behind", "ahead-of") and _to_come(of, asked):
         back, front = (of.thing, of.to) if of.relation == "behind" else (of.to, of.thing)
         if is_us(back) and isinstance(front, Vehicle):

@@ -67,6 +67,10 @@ def hastened(
         deed, causes = found.deed, found.causes
     elif letting is not None and named is not None:
         causes = (MotionCause("right-of-way", vehicle=named),)
+    stands = None if now is None else _leader(scene, now)
+    if stands is not None and named in (None, stands):
+        behind, red = MotionCause("leader", vehicle=stands), _at_red(scene)
+        return Unslowed(deed, behind, vehicle=stands, past=False, form=form, red=red)
     met = _met(scene, deed, named, causes, setting_off=now is not None)
     first = next((c for c in causes if met is None or c.vehicle == met.vehicle), None)
     cost = None if now is not None else lost(scene, deed)

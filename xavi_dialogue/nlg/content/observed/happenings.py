@@ -258,7 +258,8 @@ def _how_long(answer: Happenings, context: SpeechContext) -> Plan:
 
 def _so_far(one: Measure, context: SpeechContext) -> bool:
     """Check whether a measure is how long somebody has waited, not how long it will still take."""
-    return one.attribute == "waiting-time" and (one.until is None or one.until <= context.now)
+    waited = one.attribute == "waiting-time" and one.extreme != "total"
+    return waited and (one.until is None or one.until <= context.now)
 
 
 def _items(episodes: tuple[Episode, ...], context: SpeechContext) -> Message:
