@@ -181,3 +181,19 @@ def test_whether_others_have_green_is_told_of_the_lights_in_view(text: str) -> N
 def test_nobody_has_green_while_all_lights_in_view_are_red() -> None:
     told = Talk("junction-0", 25.0).hear("does anybody else have green?")
     assert told.startswith("I see no other light at this junction that is green")
+
+
+@pytest.mark.parametrize("text", ["why are you stopping on green", "why brake at a green light?"])
+def test_what_we_do_on_green_is_not_for_the_light(text: str) -> None:
+    assert "have to let the pedestrian" in Talk("city-0", 31.0).hear(text)
+
+
+def test_the_light_when_we_went_is_the_one_that_we_passed() -> None:
+    told = Talk("city-0", 45.0).hear("what colour was the light when we went?")
+    assert told.startswith("The traffic light was green")
+
+
+def test_several_were_first_seen_when_one_of_them_was() -> None:
+    told = Talk("city-0", 45.0).hear("when did you first see the people?")
+    assert told.startswith("I saw the pedestrian")
+    assert "at 0:01" in told

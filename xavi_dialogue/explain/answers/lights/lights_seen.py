@@ -155,6 +155,10 @@ def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
     light = light_in(*_asked_of(question)) or Feature("light")
     time, past = moment(getattr(question, "of", question), scene, light)
     one = shown_at(scene.ride, light, time)
+    passed = [p for p in passings(scene.ride) if p.time <= time]
+    if one is None and light.of is None and past and passed:  # out of view by then
+        time = passed[-1].time
+        one = crossed(scene.ride, passed[-1]).shown
     if one is None:
         return _others(scene, light, time, past=past)
     return LightTold("colour", one, past=past, time=time, whose=light.of)

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Vehicle,
+    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.explain.answers.events.accounts import TOLD, select, summary, taking_part
@@ -50,6 +51,7 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     duration,
     occasion,
 )
+from xavi_dialogue.explain.answers.reference.reading import numbers_in
 from xavi_dialogue.explain.answers.ride.onward import course, leaves_when, turning_ahead
 from xavi_dialogue.explain.answers.ride.places import time_to_go, whither
 from xavi_dialogue.explain.answers.ride.reaching import reaching
@@ -199,10 +201,14 @@ def _first_held(of: Proposition, asked: Asked) -> Answer:
     match of:
         case Believed(content=Happens(event=event)) if number(event.actor) is not None:
             return since_when(asked, event)
-        case Related(relation="can-see", thing=thing, to=Vehicle(number=seen)) if is_us(thing):
-            first = first_look(asked, seen, asked.world.begin)
-            if first is not None:
-                sight = Episode(Ego(), "see", first.time, first.time, Vehicle(seen))
+        case Related(relation="can-see", thing=thing, to=Vehicle() | Vehicles() as seen) if is_us(
+            thing
+        ):
+            known = (first_look(asked, one, asked.world.begin) for one in numbers_in(seen))
+            looks = [look for look in known if look is not None]
+            if looks:  # of several, the first of them
+                first = min(looks, key=lambda look: look.time)
+                sight = Episode(Ego(), "see", first.time, first.time, Vehicle(first.vehicle))
                 return Happenings("when", (sight,), Ego(), looks=(first,))
     about = window(asked)
     for trace in asked.ride.traces:

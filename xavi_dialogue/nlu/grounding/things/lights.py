@@ -120,6 +120,8 @@ def _event(event: Event, g: Grounder) -> Event:
     light = _light(place) or _light(event.object)
     if light is None:
         return event
+    if event.action in HELD and light.colour == "green" and place is not None:
+        return replace(event, where=None)  # "on green" is not what we stop for
     if event.action in HELD:
         return replace(event, object=light, where=None)
     through = light.colour is not None or _light(event.object) is not None
