@@ -197,3 +197,16 @@ def test_several_were_first_seen_when_one_of_them_was() -> None:
     told = Talk("city-0", 45.0).hear("when did you first see the people?")
     assert told.startswith("I saw the pedestrian")
     assert "at 0:01" in told
+
+
+@pytest.mark.parametrize(
+    "text", ["did we go over the line at red", "did we cross the line on red?"]
+)
+def test_a_line_crossed_at_red_is_its_light(text: str) -> None:
+    told = Talk("junction-0", 31.0).hear(text)
+    assert told.startswith("No, the light was green when we passed its line")
+
+
+def test_being_at_red_is_waiting_there() -> None:
+    told = Talk("junction-0", 22.0).hear("how long have we been at red?")
+    assert told.startswith("I have been waiting for the traffic light")

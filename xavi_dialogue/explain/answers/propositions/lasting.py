@@ -39,6 +39,7 @@ from xavi_dialogue.explain.answers.ride.places import time_to_go
 
 STEP = 0.5  # [s] between the times that are checked
 BREAK = 1.5  # [s] maximum interruption of a state
+HOLDING = ("queue", "light")  # to be in one, or at one, is to wait
 MANY = 240  # maximum of times that are checked
 
 
@@ -49,7 +50,8 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
         Unanswered: it did not happen.
     """
     of = question.of
-    if isinstance(of, Related) and is_us(of.thing) and of.to == Feature("queue"):
+    held = isinstance(of, Related) and isinstance(of.to, Feature) and of.to.kind in HOLDING
+    if isinstance(of, Related) and is_us(of.thing) and held:
         of = Event("wait", time=of.time, tense=of.tense)
     if isinstance(of, Related) and of.relation in ("behind", "ahead-of") and _to_come(of, asked):
         back, front = (of.thing, of.to) if of.relation == "behind" else (of.to, of.thing)

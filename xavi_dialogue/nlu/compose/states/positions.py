@@ -51,8 +51,6 @@ def stuck_at(clause: Clause, thing: Thing | None) -> Proposition | None:
     """Read who is stuck at a traffic light as waiting there; None where nothing tells."""
     places = [as_thing(on_light(c.key, c.sem, ())) for c in clause.complements if c.key in BY]
     light = next((p for p in places if isinstance(p, Feature) and p.kind == "light"), None)
-    if any(key == "red-light" for key, _ in clause.adjectives):
-        light = Feature("light", colour="red")  # "at red"
     if light is None or thing is None:
         return None
     tense: Any = clause.tense
