@@ -17,7 +17,9 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     Thing,
     Unknown,
+    Unsaid,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
@@ -204,4 +206,7 @@ def neared(special: Special) -> Proposition:
     other = whom if isinstance(special.subject, Ego | Passenger) else special.subject
     if other is None or tense not in ("past", "perfect"):
         return Happens(event_of(special, "approach", whom))
-    return Is("close", other, too="too" in special.clause.focus, time=time_of(special), tense=tense)
+    time, anybody = time_of(special), other == Described(definite=False)
+    if anybody and isinstance(time, Unsaid):
+        time = WholeRide()  # "did anyone come near us?"
+    return Is("close", None if anybody else other, too="too" in special.clause.focus, time=time, tense=tense)
