@@ -209,4 +209,5 @@ def neared(special: Special) -> Proposition:
     time, anybody = time_of(special), other == Described(definite=False)
     if anybody and isinstance(time, Unsaid):
         time = WholeRide()  # "did anyone come near us?"
-    return Is("close", None if anybody else other, too="too" in special.clause.focus, time=time, tense=tense)
+    too = "too" in special.clause.focus
+    return Is("close", None if anybody else other, too=too, time=time, tense=tense)

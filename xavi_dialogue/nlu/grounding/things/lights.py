@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Relative,
     Thing,
+    Unsaid,
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -115,6 +116,8 @@ def _event(event: Event, g: Grounder) -> Event:
     if event.action in SHOWING and isinstance(event.actor, Pronoun):
         g.notes.cost += 0.0 if _known(g) else NONE_SEEN
         return replace(event, actor=LIGHT)
+    if (shown := _shown_meanwhile(event)) is not None:
+        return replace(event, action="pass", object=shown, time=Unsaid(), where=None)
     where = event.where
     place = None if where is None or where.relation not in AT else where.to
     light = _light(place) or _light(event.object)
@@ -128,6 +131,18 @@ def _event(event: Event, g: Grounder) -> Event:
     if event.action in GOING and (through or event.action != "go"):
         return replace(event, action="pass", object=light, where=None)
     return event
+
+
+def _shown_meanwhile(event: Event) -> Feature | None:
+    """Return what the light is said to have shown as we passed it, or its line."""
+    placed = event.object is None or isinstance(event.object, Feature)
+    if not placed or event.actor != Ego() or event.action not in (*GOING, "cross"):
+        return None
+    match event.time:
+        case Relative("during", Event("show", object=Feature(kind="light", colour=colour))):
+            kept = colour is not None and event.tense in ("past", "perfect")
+            return Feature("light", colour=colour) if kept else None
+    return None
 
 
 def _lit_then(of: Has, g: Grounder) -> Has | Happens | Not:
