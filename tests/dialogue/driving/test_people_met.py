@@ -37,3 +37,9 @@ def test_the_longest_wait_is_told(text: str) -> None:
 def test_a_tag_that_affirms_what_we_know_gets_yes() -> None:
     told = Talk(*WAITING).hear("you do know those people are there, don't you?")
     assert told.startswith("Yes")
+
+
+def test_braking_for_somebody_is_hard_only_where_it_was() -> None:
+    talk = Talk(*OVER)
+    assert talk.hear("did you brake for the people?").startswith("Yes")
+    assert talk.hear("did you brake hard for the people?").startswith("No, I did not brake hard")

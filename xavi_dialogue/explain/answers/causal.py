@@ -10,7 +10,9 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     MotionReason,
     NeedRollout,
+    Verdict,
 )
+from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowAvoid,
@@ -63,6 +65,7 @@ from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 from xavi_dialogue.explain.answers.suppositions.listing import closest_choice, how_decide, listed
 from xavi_dialogue.explain.answers.suppositions.undone import is_undone
+from xavi_dialogue.explain.history.thresholds import HARD
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -271,6 +274,12 @@ def _slowed_because(question: Whether, scene: Asked) -> Answer:
     of, _ = unwrapped(question.that)
     assert isinstance(of, Happens)
     found = _because_of(of.event, scene)
+    if "hard" in of.event.manner and isinstance(found, MotionReason):
+        deed = found.deed
+        if deed is not None and deed.peak is not None and deed.peak < HARD:
+            most = Measure("deceleration", Ego(), deed.begin, value=deed.peak, until=deed.end,
+                           extreme="highest")  # fmt: skip
+            return Verdict(that=Happens(replace(of.event, object=None)), holds=False, facts=(most,))
     if of.event.tense == "future" and getattr(found, "suspected", None) == "none":
         return replace(found, suspect=None, suspected=None)  # we stand already
     return found
