@@ -43,3 +43,13 @@ def test_braking_for_somebody_is_hard_only_where_it_was() -> None:
     talk = Talk(*OVER)
     assert talk.hear("did you brake for the people?").startswith("Yes")
     assert talk.hear("did you brake hard for the people?").startswith("No, I did not brake hard")
+
+
+def test_how_long_we_stood_in_total_is_the_sum_of_our_stops() -> None:
+    told = Talk(*OVER).hear("how long were we stopped in total?")
+    assert told == "We stood still for 6 seconds in all."
+
+
+def test_crossing_is_what_people_do_and_no_junction() -> None:
+    told = Talk("junction-0", 20.0).hear("how many ppl are crossing in front of us?")
+    assert told == Talk("junction-0", 20.0).hear("how many people are on the zebra crossing?")

@@ -55,3 +55,13 @@ def test_what_stops_us_is_what_speaks_against_the_wish(texts: tuple[str, ...]) -
     told = Talk(*CROWDED).hear(*texts)
     assert "the black car" in told
     assert "the blue car" not in told
+
+
+def test_we_are_about_to_go_once_the_light_has_turned_green() -> None:
+    assert Talk("city-0", 24.1).hear("ok it's green. can we go now?").startswith("I am just about")
+    assert Talk("city-0", 22.0).hear("can we go now?").startswith("Not yet")
+
+
+@pytest.mark.parametrize("text", ["wait!", "hold on!"])
+def test_wait_by_itself_is_a_request(text: str) -> None:
+    assert "cannot wait on request" in Talk(*STANDING).hear(text)

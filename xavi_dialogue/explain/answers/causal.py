@@ -276,7 +276,7 @@ def _slowed_because(question: Whether, scene: Asked) -> Answer:
     found = _because_of(of.event, scene)
     if "hard" in of.event.manner and isinstance(found, MotionReason):
         deed = found.deed
-        if deed is not None and deed.peak is not None and deed.peak < HARD:
+        if deed.peak is not None and deed.peak < HARD:
             most = Measure("deceleration", Ego(), deed.begin, value=deed.peak, until=deed.end,
                            extreme="highest")  # fmt: skip
             return Verdict(that=Happens(replace(of.event, object=None)), holds=False, facts=(most,))

@@ -103,6 +103,8 @@ def request(act: Request, asked: Asked) -> Answer:
     hurried = sided(event) in STARTS | {"speed-up", "continue"}
     halting = event.action in ("stop", "wait")  # the answer names whom we brake for anyway
     cause = _cause(asked) if able and (hurried or halting) and soon is None else None
+    if hurried and cause is not None and cause.shown is not None and cause.shown.end is not None:
+        cause, soon = None, asked.now  # the light that held us has just changed
     already = already and cause is None
     decided = soon is not None or cannot is not None or cause is not None
     open_ = able and not already and not decided

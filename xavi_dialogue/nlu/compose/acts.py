@@ -157,9 +157,9 @@ class Composer(Statements):
             return [((Repair(kind),), 0.0)]
         if wh.kind == "what" and missed(clause):
             return [((Ask(Summarise(time=clause.time)),), 0.0)]
-        told = found and clause.complements  # "why aren't we in it?"
-        if wh.kind == "why" and unit.name == "ask_lacking" and clause.verb is None and not told:
-            return [((lacking(clause),), 0.0)]
+        told = (found and clause.complements) or unit.name != "ask_lacking"  # "why aren't we in it?"
+        if wh.kind == "why" and not told and (left := lacking(clause)) is not None:
+            return [((left,), 0.0)]
         if (held := leaf_of(unit, "THINKQ")) is not None:
             found = [(of_belief(question, wh.kind, held.key), cost) for question, cost in found]
         named = next((sem for sem, _ in clause.objects), clause.subject)

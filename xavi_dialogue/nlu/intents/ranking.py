@@ -63,7 +63,9 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     wanted = _demands(text, readings[0])
     told = any(_names_deed(one) for one in readings)
+    asked_for = any(one.acts and not one.unread for one in readings)
     readings = [_timed(_charged(one, wanted, told=told)) for one in readings]
+    readings = [one for one in readings if one.acts or not asked_for]  # "wait!" asks us to
     readings.sort(key=lambda one: one.cost)
     best = readings[0]
     unmet = _unmet(best, wanted)

@@ -10,7 +10,7 @@ from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from planner.record.trace import Action
 from tests.explain.facts.scenes import Actor, Pose, made, speeds
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Vehicle
-from xavi_dialogue.explain.facts.episodes.own import bearing, driving_on, told
+from xavi_dialogue.explain.facts.episodes.own import bearing, driving_on, struck, told
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.states import States
 
@@ -112,6 +112,14 @@ def test_what_our_events_tell() -> None:
         (Ego(), "arrive", 7.0, 7.0, Destination()),
         (Ego(), "continue", 1.0, 5.0, None),
     ]
+
+
+def test_a_collision_is_one_of_the_other_with_us_too() -> None:
+    events = (Event("collided", 5.0, vehicle=3), Event("collided", 6.0))
+    states = States(made({0: SLOWING}, 8.0, events=events))
+    (found,) = struck(states, 3)
+    assert (found.actor, found.begin, found.object) == (Vehicle(3), 5.0, Ego())
+    assert struck(states, 4) == []
 
 
 def bearing_by(angle: float) -> Actor:

@@ -238,7 +238,8 @@ def _collides(asked: Asked, event: Event) -> Finding:
     about = window(asked, event.time, event.tense)
     ahead = is_ahead(asked, event.time, event.tense) or event.tense == "present"
     vehicle = one or other or nearest_of(asked, event, about.widened())
-    crash = occasion(asked, Event("collide", Ego(), event.object, time=event.time))
+    whom = event.actor if naming.is_us(event.object) else event.object
+    crash = occasion(asked, Event("collide", Ego(), whom, time=event.time))
     if crash is not None and event.action == "collide":
         return Finding(True, (crash,))
     near = Window(asked.now, asked.now) if ahead else about

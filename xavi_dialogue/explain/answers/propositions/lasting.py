@@ -57,6 +57,9 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
         back, front = (of.thing, of.to) if of.relation == "behind" else (of.to, of.thing)
         if is_us(back) and isinstance(front, Vehicle):
             return staying(asked, front)
+    match of:
+        case Is(state="stationary", thing=Ego(), time=WholeRide() as time, tense=tense):
+            return event_lasting(Event("stand", Ego(), time=time, tense=tense), asked)  # in all
     if not isinstance(of, Event):
         stood = _stands_there(of, asked)
         return state_lasting(of, asked) if stood is None else lasting(asked, stood)

@@ -25,7 +25,13 @@ from xavi_dialogue.explain.facts.episodes.meetings import (
     passings,
 )
 from xavi_dialogue.explain.facts.episodes.misses import misses
-from xavi_dialogue.explain.facts.episodes.own import bearing, changed_plans, driving_on, told
+from xavi_dialogue.explain.facts.episodes.own import (
+    bearing,
+    changed_plans,
+    driving_on,
+    struck,
+    told,
+)
 from xavi_dialogue.explain.facts.episodes.seeing import sights, signals
 from xavi_dialogue.explain.facts.episodes.speeds import moves, speeds
 from xavi_dialogue.explain.facts.episodes.waiting import waits
@@ -60,6 +66,7 @@ MEETINGS: dict[str, tuple[Reader, Names]] = {
     "followings": (followings, frozenset(("follow",))),
     "movings-in": (movings_in, frozenset(("cut-in", "pull-out"))),
     "misses": (misses, frozenset(("nearly-collide",))),
+    "struck": (struck, frozenset(("collide",))),
 }
 #: Likewise for the actions that only the ego has.
 OWN: dict[str, tuple[Callable[[States], Iterator[Episode]], Names]] = {

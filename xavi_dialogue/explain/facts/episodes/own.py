@@ -32,6 +32,15 @@ def told(states: States) -> Iterator[Episode]:
             yield Episode(named(EGO), "collide", time, time, other)
 
 
+def struck(states: States, vehicle: int) -> list[Episode]:
+    """Return the collisions of the ego with a vehicle as those of that vehicle with the ego."""
+    return [
+        Episode(named(vehicle), "collide", event.sim_time, event.sim_time, named(EGO))
+        for event in states.ride.events
+        if event.kind == "collided" and event.vehicle == vehicle
+    ]
+
+
 def driving_on(states: States) -> Iterator[Episode]:
     """Yield the stretches in which the ego just drove on."""
     for deed in states.ride.deeds:

@@ -75,8 +75,13 @@ def swallows(unit: Node) -> bool:
     return any(isinstance(part, Node) and part.name == "that_clause" for part in firsts)
 
 
-def lacking(clause: Clause) -> Act:
-    """Read "why didn't you?", "why did he?": why, or why not, of what was said before."""
+def lacking(clause: Clause) -> Act | None:
+    """Read "why didn't you?", "why did he?": why, or why not, of what was said before.
+
+    A clause with a verb, or with one where its subject would stand, lacks nothing.
+    """
+    if clause.verb is not None or isinstance(clause.subject, Event):
+        return None
     subject = as_thing(clause.subject)
     thing = None if isinstance(subject, Ego) else subject
     form: Any = "why-not" if clause.negated else "why"
