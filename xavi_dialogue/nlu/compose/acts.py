@@ -157,7 +157,7 @@ class Composer(Statements):
             return [((Repair(kind),), 0.0)]
         if wh.kind == "what" and missed(clause):
             return [((Ask(Summarise(time=clause.time)),), 0.0)]
-        told = (found and clause.complements) or unit.name != "ask_lacking"  # "why aren't we in it?"
+        told = (found and clause.complements) or unit.name != "ask_lacking"  # "why aren't we?"
         if wh.kind == "why" and not told and (left := lacking(clause)) is not None:
             return [((left,), 0.0)]
         if (held := leaf_of(unit, "THINKQ")) is not None:
