@@ -53,3 +53,12 @@ def test_how_long_we_stood_in_total_is_the_sum_of_our_stops() -> None:
 def test_crossing_is_what_people_do_and_no_junction() -> None:
     told = Talk("junction-0", 20.0).hear("how many ppl are crossing in front of us?")
     assert told == Talk("junction-0", 20.0).hear("how many people are on the zebra crossing?")
+
+
+def test_a_light_that_we_passed_is_said_to_be_passed() -> None:
+    assert ", which we passed about" in Talk("city-0", 30.0).hear("what's the light doing?")
+
+
+def test_the_colour_ahead_is_that_of_the_light() -> None:
+    told = Talk("city-0", 16.0).hear("whats the colour up ahead")
+    assert told.startswith("The traffic light is red")

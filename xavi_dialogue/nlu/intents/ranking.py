@@ -63,9 +63,9 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     wanted = _demands(text, readings[0])
     told = any(_names_deed(one) for one in readings)
-    asked_for = any(one.acts and not one.unread for one in readings)
+    whole = any(one.acts and not one.unread and not _lost(one) for one in readings)
     readings = [_timed(_charged(one, wanted, told=told)) for one in readings]
-    readings = [one for one in readings if one.acts or not asked_for]  # "wait!" asks us to
+    readings = [one for one in readings if one.acts or not whole]  # "wait!" asks us to
     readings.sort(key=lambda one: one.cost)
     best = readings[0]
     unmet = _unmet(best, wanted)
@@ -136,6 +136,11 @@ def _timed(reading: Reading) -> Reading:
     """Let a question be of the time that its text names, where no act took it up."""
     acts = at_time_of(reading.acts, reading)
     return reading if acts == reading.acts else replace(reading, acts=acts)
+
+
+def _lost(reading: Reading) -> bool:
+    """Tell whether a reading leaves a word unread."""
+    return any(share.share == "unknown" for share in reading.shares)
 
 
 def _names_deed(reading: Reading) -> bool:

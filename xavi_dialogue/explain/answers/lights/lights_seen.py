@@ -161,7 +161,8 @@ def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
         one = crossed(scene.ride, passed[-1]).shown
     if one is None:
         return _others(scene, light, time, past=past)
-    return LightTold("colour", one, past=past, time=time, whose=light.of)
+    behind = None if past or light.of is not None else place(scene, light, time)["passed"]
+    return LightTold("colour", one, past=past, time=time, whose=light.of, passed=behind)
 
 
 def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTold:

@@ -84,6 +84,7 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
     slots: dict[str, object] = {
         "far": None if answer.distance is None else Quantity(answer.distance, "m"),
         "passed": None if answer.passed is None else Moment(answer.passed),
+        "behind": None if answer.passed is None or answer.past else Moment(answer.passed),
         "wanted": None if answer.wanted is None else COLOURS[answer.wanted],
         "light": Who(Feature("light") if one is None else one.light),
         "past": answer.past,

@@ -244,12 +244,11 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         of, to = members[0], as_thing(members[1])
     event = of if isinstance(of, Event) else traits.event
     thing = of if is_thing(of) and not isinstance(of, Pronoun) else as_thing(of)
-    if head.key == "colour" and "colour" in traits.fields and of is None:
-        return described("vehicle", traits)  # "the one in green colour"
+    if head.key == "colour" and of is None:  # "the one in green colour", "the colour"
+        hued = "colour" in traits.fields
+        return described("vehicle", traits) if hued else Measure(Measured("colour", Pronoun("it")))
     if head.key == "distance" and isinstance(to, Destination):
-        return Measure(
-            Measured("distance-to-go", cast(Thing, thing) if thing is not None else Ego())
-        )
+        return Measure(Measured("distance-to-go", cast(Any, thing) or Ego()))
     key = head.key
     if key == "speed" and isinstance(traits.clause, Is) and traits.clause.state == "allowed":
         key = "limit"  # "the speed that is permitted"

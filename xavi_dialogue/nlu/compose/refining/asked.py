@@ -35,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Next,
     Not,
+    Pronoun,
     Record,
     Related,
     Relative,
@@ -141,7 +142,7 @@ def _of_lights(clause: Clause, question: Question) -> Question | None:
             Happens(Event("give-way" | "keep-distance" | "do", who, Wanted(), tense=tense)),
         ):
             return HowMuch(Measured("indicator", who, tense=tense))  # "what signal is it giving?"
-        case HowMuch(Measured("colour", Ego()) as of) if (
+        case HowMuch(Measured("colour", Ego() | Pronoun("it")) as of) if (
             isinstance(clause.subject, Measure) and clause.subject.of.attribute == "indicator"
         ):
             return HowMuch(replace(of, thing=Feature("light")))  # "what colour was your signal?"
