@@ -27,18 +27,11 @@ class WayStep(Value, frozen=True):
 class Course(Value, frozen=True):
     """Our way ahead: the way we take, the turns that are left, whether we stay on the road."""
 
+    #: "choice": why we take the route; "bound": whether it leads to our destination
     form: Literal[
-        "way",
-        "route",
-        "choice",
-        "turns",
-        "junctions",
-        "roundabouts",
-        "road",
-        "nearly",
-        "halt",
+        "way", "route", "choice", "turns", "junctions", "roundabouts", "road", "nearly", "halt",
         "bound",
-    ]  # "choice": why we take the route; "bound": whether it leads to our destination
+    ]  # fmt: skip
     steps: tuple[WayStep, ...]
     holds: bool | None = None  # the reply to a yes or no question
     left: float | None = None  # [m] to the destination

@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Exists,
     Happens,
     Is,
     Lane,
@@ -174,6 +175,8 @@ class Statements:
             expected = self._expected(value)
             if expected is not None:
                 return (Ask(expected),)
+        if tagged and clause.there and (deed := _expected_of(of, unit)) is not None:
+            return (Ask(Whether(deed)),)
         anybody = unit_words.startswith("any") and clause.modal is None  # "anyone else coming"
         if tagged or self.asks or anybody:
             question = refined_whether(clause, self.questions.polar(clause, value, tag=True))
@@ -247,6 +250,21 @@ def _tagged(unit: Node) -> bool:
             if leaf_of(part, "NOT"):
                 return True
     return False
+
+
+def _expected_of(of: Proposition, unit: Node) -> Proposition | None:
+    """Read "there is a car that looks as if it will cut in. Will it?" as whether it will."""
+    tails = (part for part in unit.parts if isinstance(part, Node) and part.name == "tail")
+    if not any({"will", "would"} & {*words_of(tail).split()} for tail in tails):
+        return None
+    match of:
+        case Exists(thing=Described(such=Believed(content=Happens(event=event))) as thing):
+            whole = replace(thing, such=None, definite=True)
+        case Exists(thing=Described(doing=Event() as event) as thing):
+            whole = replace(thing, doing=None, definite=True)
+        case _:
+            return None
+    return Happens(replace(event, actor=whole, tense="future", modal=None))
 
 
 def _is_needless(of: Proposition) -> bool:
