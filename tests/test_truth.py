@@ -48,10 +48,10 @@ class Asked:
 
 
 def ask(name: str, seed: int, text: str) -> Asked:
-    world = scenario.load(name)
+    world = scenario.load(name, seed)
     network = network_of(world)
     conversation = Conversation(make_pipeline(), planner_for(network))
-    with start(world, seed, network) as ride:
+    with start(world, network) as ride:
         at = drive_to(ride, conversation, None)
     reply = conversation.ask(text, at)
     dialogue = conversation.dialogue

@@ -50,8 +50,8 @@ def run(checkout, scenario, seed, steps):
 
 @pytest.fixture(scope="module")
 def recorded() -> list[PlanTrace]:
-    bend = scenario.load("bend")
-    with start(bend, 0, network_of(bend), duration=8.0) as moments:
+    bend = scenario.load("bend", seed=0)
+    with start(bend, network_of(bend), duration=8.0) as moments:
         traces = [moment.trace for moment in moments if moment.trace is not None]
     return [one for one in traces if len(one.scene) > 1 and one.under_way is None][:2]
 

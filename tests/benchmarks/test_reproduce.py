@@ -225,7 +225,7 @@ def test_a_row_that_is_not_supported_comes_with_its_figures() -> None:
 
 
 def test_what_breaks_off_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    def load(name: str) -> None:
+    def load(name: str, seed: int) -> None:
         raise OSError(f"{name} is gone")
 
     monkeypatch.setattr(rides, "load", load)

@@ -42,9 +42,9 @@ Answers = list[tuple[float, str, str]]
 @pytest.fixture(scope="module", params=["s1", "s3"])
 def asked(request: pytest.FixtureRequest) -> tuple[Ridden, Answers]:
     """A ride, and what was answered on it: times, questions and answers."""
-    world = scenario.load(request.param)
+    world = scenario.load(request.param, seed=1)
     network = network_of(world)
-    with start(world, 1, network) as ride:
+    with start(world, network) as ride:
         moments = list(ride)
     conversation = Conversation(make_pipeline(), planner_for(network))
     answers: Answers = []

@@ -247,7 +247,7 @@ def test_the_command_writes_both_files_and_overwrites_none(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("asked", "status", "told"),
     [
-        (("foo bar baz",), 4, ("no /ghost for 'foo bar baz': I am sorry, I did not understand",)),
+        (("foo bar baz",), 4, ("no /ghost for 'foo bar baz': I am sorry, I did not get",)),
         (("Why did you stop?", WHY), 3, ("no /ghost for 'Why did you stop?': ",)),
         (("What are you doing?",), 0, ("no /ghost for 'What are you doing?': ",)),
         ((WHY, "--at", "99"), 0, ("99 s is after the end: what was asked is asked at 19 s",)),

@@ -44,8 +44,9 @@ def test_episodes_are_those_of_some_actors_and_actions() -> None:
     assert told("stop", "stand") == {(US, "stop"), (ONE, "stand")}
     assert told("stop", "stand", who=frozenset((1, 2))) == {(ONE, "stand")}
     assert told("move", who=frozenset((2,))) == {(TWO, "move")}
-    assert told("collide") == {(US, "collide")}
-    assert told("collide", who=frozenset((1,))) == set()
+    assert told("collide") == {(US, "collide"), (ONE, "collide")}
+    assert told("collide", who=frozenset((1,))) == {(ONE, "collide")}
+    assert told("collide", who=frozenset((2,))) == set()
     assert told("overtake", "pass") == {(TWO, "overtake")}
     assert told("overtake", who=frozenset((0,))) == set()
     assert told("overtake", who=frozenset((2,))) == {(TWO, "overtake")}
