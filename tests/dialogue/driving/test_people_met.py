@@ -62,3 +62,8 @@ def test_a_light_that_we_passed_is_said_to_be_passed() -> None:
 def test_the_colour_ahead_is_that_of_the_light() -> None:
     told = Talk("city-0", 16.0).hear("whats the colour up ahead")
     assert told.startswith("The traffic light is red")
+
+
+@pytest.mark.parametrize("text", ["why are we stopped, is it red?", "why don't we go, is it red"])
+def test_red_by_itself_is_the_light_that_holds_us(text: str) -> None:
+    assert "because the traffic light is red" in Talk("city-0", 22.0).hear(text)

@@ -9,7 +9,7 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.meaning import Act, Doing, HowKnow, HowLong, Identify, When, Where
+from xavi_dialogue.domain.meaning import Act, Doing, HowKnow, HowLong, Identify, When, Where, Why
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -81,6 +81,10 @@ def _meant(part: Any, g: Grounder) -> Any:
             | When(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
         ):  # a vehicle has its colour for good
             return replace(part, of=_lit_then(replace(of, thing=LIGHT), g))
+        case Why(suspect=thing) if _is_red(thing, g):  # "why do we stand, is it red?"
+            return replace(part, suspect=LIGHT)
+        case Is(state="faulty", thing=thing) if _is_red(thing, g):
+            return replace(part, thing=LIGHT)
         case Is(state="faulty", thing=Pronoun() as thing):
             return replace(part, thing=_spoken(thing, g))
         case Doing(actor=Pronoun() as thing):
@@ -273,6 +277,14 @@ def _in_view(g: Grounder) -> bool:
     now = g.context.now
     shown = g.context.holds(Event("show", LIGHT), now, now)
     return any(one.end is None or one.end >= now for one in shown)
+
+
+def _is_red(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether only a colour is said, which the light in view may have and no vehicle has."""
+    if not isinstance(thing, Described) or thing.colour not in LIT:
+        return False
+    plain = thing == Described(colour=thing.colour)
+    return plain and _in_view(g) and not _is_coloured(thing.colour, g)
 
 
 def _is_coloured(colour: object, g: Grounder) -> bool:
