@@ -25,6 +25,7 @@ COLOURS: dict[LightColour, str] = {
 }  # fmt: skip
 STATED = ("colour", "whether", "claim")  # questions about what it shows
 SPENT = 0.75  # [s] minimum duration of a state that is stated
+JUST_PASSED = 3.0  # [s] for which a light that we passed is still the one in question
 SAVED = 1.0  # [s] minimum difference that matters
 AT_ONCE = 0.75  # [s] maximum time between two events that count as simultaneous
 CERTAIN = 0.95  # minimum probability of a plan that is stated as certain
@@ -84,7 +85,7 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
     slots: dict[str, object] = {
         "far": None if answer.distance is None else Quantity(answer.distance, "m"),
         "passed": None if answer.passed is None else Moment(answer.passed),
-        "behind": None if answer.passed is None or answer.past else Moment(answer.passed),
+        "behind": _behind(answer, context),
         "wanted": None if answer.wanted is None else COLOURS[answer.wanted],
         "light": Who(Feature("light") if one is None else one.light),
         "past": answer.past,
@@ -108,6 +109,12 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
         "never": never,
         "past": answer.past and (gone or not never),
     }
+
+
+def _behind(answer: LightTold, context: SpeechContext) -> Moment | None:
+    """Return when we passed a light whose present state is told, unless we are just past it."""
+    passed = None if answer.past else answer.passed
+    return None if passed is None or context.now - passed < JUST_PASSED else Moment(passed)
 
 
 def _when(one: Shown, answer: LightTold) -> Moment | None:
