@@ -52,14 +52,14 @@ except BaseException:
     print("caught")
 """)
     program = """
-import signal, time
+import os, signal, time
 from xavi_dialogue.process.termination import end_on_signals
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in background jobs
 end_on_signals()
 try:
     import greedy
-    print("imported", flush=True)
+    os.write(1, b"imported\\n")  # at once: the signal may come between a text and its end
     time.sleep(20.0)
 finally:
     print("released")
