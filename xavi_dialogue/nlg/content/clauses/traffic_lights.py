@@ -112,7 +112,7 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
 
 
 def _behind(answer: LightTold, context: SpeechContext) -> Moment | None:
-    """Return when we passed a light whose present state is told, unless we are just past it."""
+    """Return when we passed the light; None for a past state, or within JUST_PASSED of it."""
     passed = None if answer.past else answer.passed
     return None if passed is None or context.now - passed < JUST_PASSED else Moment(passed)
 

@@ -81,9 +81,9 @@ def _meant(part: Any, g: Grounder) -> Any:
             | When(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
         ):  # a vehicle has its colour for good
             return replace(part, of=_lit_then(replace(of, thing=LIGHT), g))
-        case Why(suspect=thing) if _is_red(thing, g):  # "why do we stand, is it red?"
+        case Why(suspect=thing) if _is_colour_alone(thing, g):  # "why do we stand, is it red?"
             return replace(part, suspect=LIGHT)
-        case Is(state="faulty", thing=thing) if _is_red(thing, g):
+        case Is(state="faulty", thing=thing) if _is_colour_alone(thing, g):
             return replace(part, thing=LIGHT)
         case Is(state="faulty", thing=Pronoun() as thing):
             return replace(part, thing=_spoken(thing, g))
@@ -140,7 +140,7 @@ def _event(event: Event, g: Grounder) -> Event:
 def _shown_meanwhile(event: Event) -> Feature | None:
     """Return what the light is said to have shown as we passed it, or its line."""
     placed = event.object is None or isinstance(event.object, Feature)
-    if not placed or event.actor != Ego() or event.action not in (*GOING, "cross"):
+    if not placed or event.actor != Ego() or event.action not in GOING:
         return None
     match event.time:
         case Relative("during", Event("show", object=Feature(kind="light", colour=colour))):
@@ -279,8 +279,8 @@ def _in_view(g: Grounder) -> bool:
     return any(one.end is None or one.end >= now for one in shown)
 
 
-def _is_red(thing: Thing | None, g: Grounder) -> bool:
-    """Tell whether only a colour is said, which the light in view may have and no vehicle has."""
+def _is_colour_alone(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether only a colour is named, a light is in view, and no vehicle spoken of has it."""
     if not isinstance(thing, Described) or thing.colour not in LIT:
         return False
     plain = thing == Described(colour=thing.colour)
